@@ -21,6 +21,7 @@
 #include "scenarios/kinds/touch/touch_rules.h"
 #include "scenarios/scoring/rubric.h"
 #include "tissue/interaction/breathing.h"
+#include "tissue/solid/tissue_table.h"
 #include "tissue/thin/duct_setup.h"
 
 namespace trocar {
@@ -101,6 +102,16 @@ struct DuctPlan {
   DuctContent content = DuctContent::kNothing;
 };
 
+/// A sheet of tissue on the organ, hung on it along its first edge; only where the organ gives way.
+struct SheetPlan {
+  std::string name;                    ///< "flap"
+  std::string material;                ///< of assets/tissues.toml
+  std::string organ;                   ///< material of the organs that have it; others go without
+  Eigen::Vector2d corner_m, along_m;   ///< in T's xy: an end of the hinge, and the way to its other end
+  double across_m = 0;                 ///< extent from the hinge, to the left of that way
+  double thickness_m = 0, edge_m = 0;  ///< edge: of its triangles
+};
+
 /// A neighbour of the organ that gives way with it, bound to it until it is peeled off; only where the organ gives way.
 struct BedPlan {
   std::string organ;      ///< material of the organs that have it; others go without
@@ -134,14 +145,16 @@ struct Exercise {
   /// That can be taken in hand, the first at the start; at least one.
   std::vector<InstrumentKind> instruments = {InstrumentKind::kProbe};
   TargetLayout layout;
-  PenRules pens;            ///< reach
-  double hold_s = 0;        ///< time in band, or in pose, that completes a target
-  ContactMaterial surface;  ///< touch: of the organ
+  PenRules pens;                      ///< reach
+  double hold_s = 0;                  ///< time in band, or in pose, that completes a target
+  ContactMaterial surface;            ///< touch: of the organ
+  std::string tissue = kStillTissue;  ///< touch: one of kTissueWords, unless the run says otherwise
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double retract_height_m = 0;  ///< of the ideal path between targets
   GripTask grip;                ///< touch
   GraspRules grasp;             ///< grasp
   std::vector<DuctPlan> ducts;
+  std::vector<SheetPlan> sheets;
   Breathing breathing;  ///< only where the organ gives way
   std::optional<BedPlan> bed;
   std::optional<SuturePlan> suture;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "haptics/quantities.h"
 
@@ -16,6 +17,7 @@ inline constexpr int kMaxContactPairs = 32;
 inline constexpr int kMaxTissueMarks = 32;
 inline constexpr int kMaxClipsSeen = 32;
 inline constexpr int kMaxDropsSeen = 64;
+inline constexpr int kMaxFollowedPlaces = 32;
 
 enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
@@ -88,6 +90,11 @@ struct SutureState {
   bool operator==(const SutureState&) const = default;
 };
 
+/// A place on the organ, such as the middle of a disc.
+struct SurfacePlace {
+  Vec3 point_T = Vec3::Zero(), normal_T = Vec3::UnitZ();
+};
+
 /// Blood in the air.
 struct DropState {
   Vec3 place_T = Vec3::Zero();
@@ -113,6 +120,10 @@ struct TissueFrame {
   std::int32_t clip_count = 0, drop_count = 0;
   std::array<Pose, kMaxClipsSeen> clip;  ///< X_TC of clips on wounds, as they were set; C: thin/clip.h
   std::array<DropState, kMaxDropsSeen> drop;
+  std::int32_t place_count = 0;                        ///< 0 where the organ stands still
+  std::array<SurfacePlace, kMaxFollowedPlaces> place;  ///< TissueSetup::followed, where they are now
+  /// Where the contact that bears most lies on an organ that gives way, at rest; nothing: none does there.
+  std::optional<Vec3> touched_rest_T;
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

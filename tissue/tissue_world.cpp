@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
+
+#include "haptics/contact/segment_triangle.h"
 
 namespace trocar {
 namespace {
@@ -12,6 +15,12 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
 constexpr double kBesideNick = 0.01;   // of a vessel's length
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
+
+std::array<Vec3, 3> vertices_at(const std::array<std::int32_t, 3>& corner, const TriangleSurface& surface) {
+  std::array<Vec3, 3> at;
+  for (std::size_t i = 0; i < 3; ++i) at[i] = surface.vertices[static_cast<std::size_t>(corner[i])];
+  return at;
+}
 
 }  // namespace
 
@@ -35,10 +44,16 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
       adjacent_T_.triangles.push_back({a - own, b - own, c - own});
       adjacent_material_.push_back(setup.triangle_material.empty() ? 0 : setup.triangle_material[t]);
     }
+    follow(setup.followed);
     if (!setup.ducts.empty()) {
       ducts_.emplace(setup.ducts, *soft_, options.tool_radius_m);
       last_topology_ = soft_->topology();
       thin_.assign(ducts_->seen().begin(), ducts_->seen().end());
+    }
+    if (!setup.sheets.empty()) {
+      sheets_.emplace(setup.sheets, *soft_);
+      last_topology_ = soft_->topology();
+      thin_.insert(thin_.end(), sheets_->seen().begin(), sheets_->seen().end());
     }
     suture_ = setup.suture;
     actions_.emplace(*soft_);
@@ -88,7 +103,11 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     frame_.grip = actions_->grip().state();
     frame_.slipped_m = actions_->grip().slipped_m();
     actions_->tell(*soft_, frame_);
+    tell_followed();
+    tell_touched(newest.contacts);
+    if (ducts_ || sheets_) clear_taken(patch);
     if (ducts_) add_ducts(patch);
+    if (sheets_) add_sheets(patch);
     if (suturing_) add_suture(patch);
   }
   if (present && rigid_) rigid_->add_to(jaws, patch);
@@ -101,20 +120,27 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
   bring_needle(newest.stylus, tool, present);
   // Jaws that have a duct, needle or thread between them do nothing to the organ: to it they are a probe.
   const bool sews = suturing_ && suturing_->jaws_taken(newest.stylus, tool, present);
-  const bool taken = sews || (ducts_ && ducts_->jaws_taken(newest.stylus, tool, present));
+  const bool taken = sews || (ducts_ && ducts_->jaws_taken(newest.stylus, tool, present)) ||
+                     (sheets_ && sheets_->jaws_taken(newest.stylus, tool, present));
   const Tool probe{InstrumentKind::kProbe, tool.shape};
   const Tool& on_organ = taken ? probe : tool;
   std::vector<SoftSpring> springs;
   bool cut = actions_->before(newest, on_organ, present, *soft_, springs);
   const std::size_t own = springs.size();
+  if (cut) {
+    last_topology_ = soft_->topology() - 1;
+    last_first_thin_triangle_ = first_thin_triangle_;
+  }
+  const std::int32_t thin = first_thin(newest.contacts);
   if (ducts_) {
-    if (cut) {
-      last_topology_ = soft_->topology() - 1;
-      last_first_duct_triangle_ = first_duct_triangle_;
-    }
-    ducts_->step(newest, duct_contacts(newest.contacts), sews ? probe : tool, present, *soft_, springs);
+    const DuctContacts contacts{newest.contacts, thin < 0 ? -1 : thin + sheet_triangles()};
+    ducts_->step(newest, contacts, sews ? probe : tool, present, *soft_, springs);
     tell_vessels();
     cut = cut || ducts_->grown();
+  }
+  if (sheets_) {
+    sheets_->step(newest, {newest.contacts, thin}, sews ? probe : tool, present, *soft_, springs);
+    cut = cut || sheets_->grown();
   }
   const std::size_t before_suture = springs.size();
   if (suturing_) suturing_->before(newest, tool, present, *soft_, springs);
@@ -140,10 +166,9 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
   if (breathing_.depth_m > 0 || breathing_.beat_m > 0)
     for (std::size_t v = 0; v < adjacent_T_.vertices.size(); ++v)  // they go along as they are
       follow(organ_vertices_ + v, std::array{Vec3(adjacent_T_.vertices[v] + shift_T)});
-  if (ducts_) {
-    follow(organ_vertices_ + adjacent_T_.vertices.size(), ducts_->contact().vertices);
-  }
-  if (ducts_ || suture_) keep_changes();
+  if (sheets_) follow(organ_vertices_ + adjacent_T_.vertices.size(), sheets_->contact().vertices);
+  if (ducts_) follow(first_duct_vertex_, ducts_->contact().vertices);
+  if (ducts_ || sheets_ || suture_) keep_changes();
   extraction_->refit(velocity_);
 }
 
@@ -151,7 +176,7 @@ void TissueWorld::gather_felt() {
   // What was there stays where it was, so that its velocity is that of the step. The lips and the bottom of a cut come
   // from where the surface was whole, and so open over a step: at once, the tip would fall into the groove.
   const auto& organ = *soft_->rest();
-  const std::size_t known_organ = organ_vertices_, tail = organ_vertices_ + adjacent_T_.vertices.size();
+  const std::size_t known_organ = organ_vertices_, known_ducts = first_duct_vertex_;
   TriangleSurface felt;
   felt.vertices.assign(soft_->felt().begin(), soft_->felt().end());
   std::copy_n(felt_.vertices.begin(), std::min(known_organ, felt_.vertices.size()), felt.vertices.begin());
@@ -175,12 +200,21 @@ void TissueWorld::gather_felt() {
     std::copy_n(felt_.vertices.begin() + static_cast<std::ptrdiff_t>(known_organ), adjacent_T_.vertices.size(),
                 felt.vertices.begin() + static_cast<std::ptrdiff_t>(beside));
   material.insert(material.end(), adjacent_material_.begin(), adjacent_material_.end());
+  first_thin_triangle_ = static_cast<std::int32_t>(felt.triangles.size());
+  if (sheets_) {
+    const std::size_t first = append(sheets_->contact());
+    std::copy(sheets_->before().begin(), sheets_->before().end(),
+              felt.vertices.begin() + static_cast<std::ptrdiff_t>(first));
+    for (const std::int32_t sheet : sheets_->sheet_of_triangle())
+      material.push_back(thin_material((ducts_ ? ducts_->size() : 0) + static_cast<std::size_t>(sheet)));
+  }
+  first_duct_vertex_ = felt.vertices.size();
   if (ducts_) {
-    first_duct_triangle_ = static_cast<std::int32_t>(felt.triangles.size());
     const std::size_t first = append(ducts_->contact());
-    for (std::size_t v = tail; v < felt_.vertices.size(); ++v) felt.vertices[first + v - tail] = felt_.vertices[v];
+    for (std::size_t v = known_ducts; known_organ > 0 && v < felt_.vertices.size(); ++v)
+      felt.vertices[first + v - known_ducts] = felt_.vertices[v];
     for (const std::int32_t duct : ducts_->duct_of_triangle())
-      material.push_back(duct_material(static_cast<std::size_t>(duct)));
+      material.push_back(thin_material(static_cast<std::size_t>(duct)));
   }
   felt_ = std::move(felt);
   triangle_material_ = std::move(material);
@@ -190,15 +224,15 @@ void TissueWorld::gather_felt() {
 }
 
 /// Behind those of the adjacent organs; where the patch has no room for more, that of the last place.
-std::int32_t TissueWorld::duct_material(std::size_t duct) const {
-  return static_cast<std::int32_t>(std::min<std::size_t>(1 + adjacent_.size() + duct, kMaxPatchMaterials - 1));
+std::int32_t TissueWorld::thin_material(std::size_t n) const {
+  return static_cast<std::int32_t>(std::min<std::size_t>(1 + adjacent_.size() + n, kMaxPatchMaterials - 1));
 }
 
-DuctContacts TissueWorld::duct_contacts(const SolvedContacts& contacts) const {
-  if (contacts.topology == soft_->topology() && last_first_duct_triangle_ < 0) return {contacts, first_duct_triangle_};
-  // The organ has more triangles since its last cut: those of the ducts begin later.
-  if (contacts.topology == last_topology_) return {contacts, last_first_duct_triangle_};
-  return {contacts, contacts.topology == soft_->topology() ? first_duct_triangle_ : -1};
+std::int32_t TissueWorld::first_thin(const SolvedContacts& contacts) const {
+  if (contacts.topology == soft_->topology() && last_first_thin_triangle_ < 0) return first_thin_triangle_;
+  // The organ has more triangles since its last cut: those of the thin parts begin later.
+  if (contacts.topology == last_topology_) return last_first_thin_triangle_;
+  return contacts.topology == soft_->topology() ? first_thin_triangle_ : -1;
 }
 
 void TissueWorld::hang_vessels() {
@@ -255,8 +289,7 @@ void TissueWorld::tell_vessels() {
 
 void TissueWorld::add_ducts(ContactPatch& patch) {
   for (std::size_t d = 0; d < ducts_->size(); ++d)
-    patch.material[static_cast<std::size_t>(duct_material(d))] = ducts_->material(d);
-  clear_taken(patch);
+    patch.material[static_cast<std::size_t>(thin_material(d))] = ducts_->material(d);
   if (ducts_->block().stiffness_n_per_m > 0) patch.grip = ducts_->block();
   if (ducts_->hold().stiffness_n_per_m > 0) patch.hold = ducts_->hold();
   if (ducts_->grip() > frame_.grip) {
@@ -286,10 +319,26 @@ void TissueWorld::add_ducts(ContactPatch& patch) {
   surgery.bile_ml = ducts_->bile_ml();
 }
 
+void TissueWorld::add_sheets(ContactPatch& patch) {
+  for (std::size_t n = 0; n < sheets_->size(); ++n)
+    patch.material[static_cast<std::size_t>(thin_material((ducts_ ? ducts_->size() : 0) + n))] = sheets_->material(n);
+  if (sheets_->block().stiffness_n_per_m > 0) patch.grip = sheets_->block();
+  if (sheets_->hold().stiffness_n_per_m > 0) patch.hold = sheets_->hold();
+  if (sheets_->grip() > frame_.grip) {
+    frame_.grip = sheets_->grip();
+    frame_.slipped_m = sheets_->slipped_m();
+  }
+  frame_.surgery.cuts += sheets_->cuts();
+  frame_.surgery.tears += sheets_->tears();
+}
+
 void TissueWorld::clear_taken(ContactPatch& patch) const {
+  const auto felt = [&](std::int32_t thin) {
+    return thin < sheet_triangles() ? sheets_->felt(thin) : ducts_->felt(thin - sheet_triangles());
+  };
   for (std::int32_t i = 0; i < patch.count;) {
-    const std::int32_t triangle = patch.triangle[static_cast<std::size_t>(i)].id - first_duct_triangle_;
-    if (triangle >= 0 && !ducts_->felt(triangle))
+    const std::int32_t thin = patch.triangle[static_cast<std::size_t>(i)].id - first_thin_triangle_;
+    if (thin >= 0 && !felt(thin))
       patch.triangle[static_cast<std::size_t>(i)] = patch.triangle[static_cast<std::size_t>(--patch.count)];
     else
       ++i;
@@ -331,11 +380,57 @@ void TissueWorld::keep_changes() {
     ducts_->add_nodes(nodes_);
     thin_.assign(ducts_->seen().begin(), ducts_->seen().end());
   }
+  if (sheets_) {
+    for (const SheetChange& change : sheets_->changed()) changes_.push_back(sheet_change_bytes(change));
+    sheets_->add_nodes(nodes_);
+    thin_.insert(thin_.end(), sheets_->seen().begin(), sheets_->seen().end());
+  }
   if (suturing_) {
     for (const SutureEvent& event : suturing_->events()) changes_.push_back(suture_event_bytes(event));
     suturing_->add_nodes(nodes_);
     thin_.insert(thin_.end(), suturing_->seen().begin(), suturing_->seen().end());
   }
+}
+
+void TissueWorld::follow(std::span<const SurfacePlace> places_T) {
+  assert(places_T.size() <= kMaxFollowedPlaces);
+  const TriangleSurface& rest = *soft_->rest();
+  for (const SurfacePlace& place : places_T) {
+    double least = std::numeric_limits<double>::infinity();
+    Followed nearest{{}, {}, place};
+    for (const auto& corner : rest.triangles) {
+      const std::array<Vec3, 3> at = vertices_at(corner, rest);
+      const Vec3 foot = closest_point_on_triangle(place.point_T, at);
+      const double distance = (foot - place.point_T).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest.corner = corner;
+      nearest.weight = barycentric_of(foot, at);
+    }
+    followed_.push_back(nearest);
+  }
+  tell_followed();
+}
+
+void TissueWorld::tell_followed() {
+  frame_.place_count = static_cast<std::int32_t>(followed_.size());
+  for (std::size_t i = 0; i < followed_.size(); ++i) {
+    const Followed& f = followed_[i];
+    // A surface's normal goes with the inverse transpose of how the tissue is stretched.
+    const Mat3 F = soft_->gradient_within(f.rest.point_T);
+    frame_.place[i] = {interpolate(f.weight, vertices_at(f.corner, *soft_->surface())),
+                       (F.inverse().transpose() * f.rest.normal_T).normalized()};
+  }
+}
+
+void TissueWorld::tell_touched(const SolvedContacts& contacts) {
+  frame_.touched_rest_T.reset();
+  const auto end = contacts.at.begin() + contacts.count;
+  const auto most = std::max_element(contacts.at.begin(), end,
+                                     [](const SolvedContact& a, const SolvedContact& b) { return a.share < b.share; });
+  if (most == end) return;
+  if (const auto place = soft_->place_of(contacts, static_cast<int>(most - contacts.at.begin())))
+    frame_.touched_rest_T = soft_->rest_place(*place);
 }
 
 TissueShape TissueWorld::shape() const {

@@ -19,6 +19,7 @@
 #include "tissue/rigid/rigid_world.h"
 #include "tissue/solid/soft_organ.h"
 #include "tissue/thin/duct_system.h"
+#include "tissue/thin/sheet_system.h"
 #include "tissue/world.h"
 
 namespace trocar {
@@ -44,9 +45,12 @@ struct TissueSetup {
   std::vector<Tool> tools = {Tool{}};  ///< by StylusState::instrument, at least one
   /// How the organ gives way; its vertices are then the first of organ_T. nullptr: it stands still.
   std::shared_ptr<const SoftSetup> soft = nullptr;
-  std::vector<DuctSetup> ducts = {};  ///< only with `soft`
+  std::vector<DuctSetup> ducts = {};    ///< only with `soft`
+  std::vector<SheetSetup> sheets = {};  ///< only with `soft`
   /// A needle that the driver brings in, its X_TN and the thread's way found then; only with `soft`. nullptr: none.
   std::shared_ptr<const SutureSetup> suture = nullptr;
+  /// Places on the organ at rest whose way the frame tells, at most kMaxFollowedPlaces; only with `soft`.
+  std::vector<SurfacePlace> followed = {};
 };
 
 class TissueWorld final : public World {
@@ -65,20 +69,28 @@ class TissueWorld final : public World {
   void step_soft(const HapticState& newest, const Tool& tool, bool present);
   /// What the loop is given after a cut: the organ's vertices, those of the adjacent organs, those of the ducts.
   void gather_felt();
-  /// Where the ducts' triangles begin in the patch that the contacts are from.
-  std::int32_t duct_material(std::size_t duct) const;
-  DuctContacts duct_contacts(const SolvedContacts& contacts) const;
+  /// Of the n-th of ducts, then sheets, in a patch.
+  std::int32_t thin_material(std::size_t n) const;
+  /// Where the triangles of sheets, then ducts, begin in the patch that the contacts are from; -1: not known.
+  std::int32_t first_thin(const SolvedContacts& contacts) const;
+  std::int32_t sheet_triangles() const {
+    return sheets_ ? static_cast<std::int32_t>(sheets_->contact().triangles.size()) : 0;
+  }
   void hang_vessels();
   /// Cuts and clips of vessels, for the blood.
   void tell_vessels();
   /// The ducts' part in patch and frame.
   void add_ducts(ContactPatch& patch);
+  void add_sheets(ContactPatch& patch);
   /// A driver that is taken in hand, or comes into the scene, has a needle in its jaws, unless the last one is in
   /// tissue.
   void bring_needle(const StylusState& stylus, const Tool& tool, bool present);
   void add_suture(ContactPatch& patch);
   void clear_taken(ContactPatch& patch) const;
   void keep_changes();
+  void follow(std::span<const SurfacePlace> places_T);
+  void tell_followed();
+  void tell_touched(const SolvedContacts& contacts);
   const Tool& in_hand(const StylusState& stylus) const;
 
   ContactMaterial organ_;
@@ -91,6 +103,7 @@ class TissueWorld final : public World {
   std::optional<SoftOrgan> soft_;
   std::optional<InstrumentActions> actions_;     ///< with soft_
   std::optional<DuctSystem> ducts_;              ///< with soft_
+  std::optional<SheetSystem> sheets_;            ///< with soft_
   std::shared_ptr<const SutureSetup> suture_;    ///< with soft_
   std::optional<Suturing> suturing_;             ///< with suture_, since a needle was brought in
   bool drives_ = false;                          ///< the driver is in hand, in the scene
@@ -98,19 +111,28 @@ class TissueWorld final : public World {
   std::vector<std::int32_t> triangle_material_;  ///< with soft_: of felt_
   TriangleSurface adjacent_T_;  ///< with soft_: the adjacent organs alone, their corners counted from 0
   std::vector<std::int32_t> adjacent_material_;  ///< of its triangles
-  TriangleSurface felt_;                         ///< with soft_: what the loop is given: organ, adjacent organs, ducts
-  std::vector<Vec3> velocity_;                   ///< with soft_: of its vertices, m/s
+  /// With soft_: what the loop is given: organ, adjacent organs, sheets, ducts.
+  TriangleSurface felt_;
+  std::size_t first_duct_vertex_ = 0;  ///< of felt_
+  std::vector<Vec3> velocity_;         ///< with soft_: of its vertices, m/s
+  /// A place by the corners of its triangle, which keep their numbers when the organ is cut.
+  struct Followed {
+    std::array<std::int32_t, 3> corner;
+    Barycentric weight;
+    SurfacePlace rest;
+  };
+  std::vector<Followed> followed_;
   TissueFrame frame_;
   std::uint64_t dropped_ = 0;
-  // With ducts_ or suture_:
-  std::vector<SurfacePtr> thin_;      ///< of the ducts, then of needle and thread
+  // With ducts_, sheets_ or suture_:
+  std::vector<SurfacePtr> thin_;      ///< of the ducts, the sheets, then of needle and thread
   std::vector<NodePlace> nodes_;      ///< of the organ, then theirs
   std::vector<std::string> changes_;  ///< of organ, ducts and suture, in order
   // With ducts_:
   std::vector<std::int32_t> vessel_;  ///< of each in Bleeding's network; -1: carries no blood
   std::size_t organ_cuts_kept_ = 0;
-  std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when the ducts began at
-  std::int32_t first_duct_triangle_ = 0, last_first_duct_triangle_ = -1;
+  std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when sheets and ducts began at
+  std::int32_t first_thin_triangle_ = 0, last_first_thin_triangle_ = -1;
   std::int32_t organ_closings_ = 0, refusal_ = 0, organ_cuts_ = 0, duct_cuts_ = 0;
   bool duct_cut_last_ = false;
   double refused_s_ = 0;  ///< loop time at which a closing on a duct was refused last

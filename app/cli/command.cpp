@@ -1,10 +1,12 @@
 #include "app/cli/command.h"
 
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "app/session/setup/typed_path.h"
+#include "tissue/solid/tissue_table.h"
 
 namespace trocar {
 
@@ -29,6 +31,13 @@ CLI::Validator file_name() {
   return CLI::Validator(
       [](std::string& file) { return file.empty() ? std::string("is empty: a file is asked for") : std::string(); },
       "FILE");
+}
+
+void add_tissue_option(CLI::App& command, std::string& tissue) {
+  command
+      .add_option("--tissue", tissue,
+                  "still, or how the organ gives way: soft, normal or stiff (default: the exercise's)")
+      ->check(CLI::IsMember(std::vector<std::string>(kTissueWords.begin(), kTissueWords.end())));
 }
 
 CLI::Validator seed_range() { return CLI::Range(0.0, 9e18, "SEED"); }

@@ -4,8 +4,8 @@
 // Only sources see CLI11.
 #pragma once
 
-#include <array>
 #include <functional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -34,9 +34,8 @@ CLI::Validator seed_range();
 constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
 
-/// How tissue is chosen, for --tissue.
-constexpr const char* kTissueForms = "still, or how the organ gives way: soft, normal or stiff";
-inline constexpr std::array<const char*, 4> kTissueWords{"still", "soft", "normal", "stiff"};
+/// --tissue: one of kTissueWords, empty unless given.
+void add_tissue_option(CLI::App& command, std::string& tissue);
 
 /// Adds one or more subcommands of `parent`.
 using AddCommand = void(CLI::App& parent, CommandAction& chosen);

@@ -136,7 +136,8 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
   for (const auto& [flag, play, words] :
        {std::tuple("--free", Play::kFree, "Straight to free play on the organ: no clock, no score, nothing kept"),
         std::tuple("--gallbladder", Play::kGallbladder, "Straight to a gallbladder on its bed, likewise"),
-        std::tuple("--stitching", Play::kStitching, "Straight to a needle and its thread, likewise")})
+        std::tuple("--stitching", Play::kStitching, "Straight to a needle and its thread, likewise"),
+        std::tuple("--flap", Play::kFlap, "Straight to a flap of tissue to lift, likewise")})
     practice
         ->add_flag_callback(
             flag, [&o, play] { o.model.play = play; }, words)
@@ -148,10 +149,7 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
   practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
-  practice
-      ->add_option("--tissue", o.model.tissue,
-                   std::string(kTissueForms) + " (default: normal in free play, else still)")
-      ->check(CLI::IsMember(std::vector<std::string>(kTissueWords.begin(), kTissueWords.end())));
+  add_tissue_option(*practice, o.model.tissue);
   practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")
       ->check(writable_path());
   CLI::Option* scale =

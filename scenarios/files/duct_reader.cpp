@@ -1,6 +1,7 @@
 #include "scenarios/files/duct_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenarios/files/file_units.h"
 
@@ -9,7 +10,8 @@ namespace {
 
 using file_units::kMilli;
 
-constexpr std::size_t kMostDucts = 4;
+constexpr std::size_t kMostDucts = 4, kMostSheets = 2;
+constexpr double kLeastHinge = 0.005, kMostTriangles = 800;
 constexpr double kKilo = 1e3;
 constexpr double kLeastLength = 0.010, kLeastStep = 0.001;  // m of a path, and between two of its points
 
@@ -58,6 +60,35 @@ std::vector<DuctPlan> read_ducts(StrictTable& document) {
     ducts.push_back(std::move(duct));
   }
   return ducts;
+}
+
+std::vector<SheetPlan> read_sheets(StrictTable& document) {
+  std::vector<SheetPlan> sheets;
+  if (!document.has("sheets")) {
+    document.allow("sheets");
+    return sheets;
+  }
+  for (StrictTable& table : document.tables("sheets")) {
+    if (sheets.size() == kMostSheets) table.fail("name", "there are more than two sheets");
+    SheetPlan sheet;
+    sheet.name = table.text("name");
+    sheet.material = table.text("material");
+    sheet.organ = table.text("organ");
+    const auto [corner_x, corner_y] = table.pair("hinge_from_mm", -200, 200);
+    const auto [end_x, end_y] = table.pair("hinge_to_mm", -200, 200);
+    sheet.corner_m = Eigen::Vector2d(corner_x, corner_y) * kMilli;
+    sheet.along_m = Eigen::Vector2d(end_x, end_y) * kMilli - sheet.corner_m;
+    sheet.across_m = table.number("across_mm", 5, 100) * kMilli;
+    sheet.thickness_m = table.number("thickness_mm", 0.05, 10) * kMilli;
+    sheet.edge_m = table.number("edge_mm", 1, 10) * kMilli;
+    const double length = sheet.along_m.norm();
+    if (length < kLeastHinge) table.fail("hinge_to_mm", "the hinge is shorter than 5 mm");
+    if (length * sheet.across_m > kMostTriangles * sheet.edge_m * sheet.edge_m * std::sqrt(3.0) / 4)
+      table.fail("edge_mm", "'edge_mm' makes more than 800 triangles of it");
+    table.finish();
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
 }
 
 std::optional<SuturePlan> read_suture(StrictTable& document, const std::vector<InstrumentKind>& instruments) {

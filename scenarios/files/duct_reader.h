@@ -1,5 +1,5 @@
-// The tables [[ducts]], [bed], [lie] and [suture] of an exercise file: ducts and vessels beside the organ, the organ
-// bound to it, how it lies, a needle with its thread.
+// The tables [[ducts]], [[sheets]], [bed], [lie] and [suture] of an exercise file: ducts and vessels beside the organ,
+// sheets of tissue on it, the organ bound to it, how it lies, a needle with its thread.
 //
 // Thread: loading only.
 #pragma once
@@ -14,6 +14,8 @@ namespace trocar {
 
 /// @return empty where the file names none. @throws InputError with line and column
 std::vector<DuctPlan> read_ducts(StrictTable& document);
+/// @return empty where the file names none. @throws InputError with line and column
+std::vector<SheetPlan> read_sheets(StrictTable& document);
 /// @return none where the file names none. @throws InputError with line and column
 std::optional<BedPlan> read_bed(StrictTable& document);
 /// @return none where the file names none. @throws InputError with line and column

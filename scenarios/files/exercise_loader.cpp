@@ -108,6 +108,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_force(document.table("force"), exercise);
   kind_of(exercise).read(document, exercise);
   exercise.ducts = read_ducts(document);
+  exercise.sheets = read_sheets(document);
   exercise.breathing = read_breathing(document);
   exercise.bed = read_bed(document);
   exercise.lie = read_lie(document);

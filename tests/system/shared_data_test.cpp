@@ -59,14 +59,13 @@ TEST_F(SharedFolder, ASpleenFromCtHasRoomForTheWholeInstrument) {
     EXPECT_EQ(proof["sound"], true) << proof["why"];
     EXPECT_GE(proof["worst"]["shaft_gap_m"].get<double>(), 0.0015) << proof["level"];
   }
-  for (const char* level :
-       {"L1"}) {  // at L3 the expert is capped at 59 on this spleen since the force turns slowly: open
-    const Translator words{"run",  "E02",      "--hand", "expert", "--level", level, "--organ", "spleen.organ.toml",
-                           "--db", ":memory:", "--json"};
-    const Json run = json_of(words, 0);
-    EXPECT_EQ(run["status"], "completed") << level;
-    EXPECT_EQ(run["passed"], true) << level << ": " << run["score"];
-  }
+  // Not L3: its 0.3 N lie within the arm's own friction on this spleen's steep sides, and the expert holds them by
+  // luck.
+  const Json run = json_of(
+      {"run", "E02", "--hand", "expert", "--level", "L1", "--organ", "spleen.organ.toml", "--db", ":memory:", "--json"},
+      0);
+  EXPECT_EQ(run["status"], "completed");
+  EXPECT_EQ(run["passed"], true) << run["score"];
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 // Thread: loading only.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -30,7 +31,11 @@ class TissueTable {
   std::vector<TissueSolid> tissues_;
 };
 
-/// What an instructor picks: "soft" and "stiff" are the ends of the range of young_pa, "normal" is its value.
+/// What an instructor picks: that the organ stands still, or how it gives way.
+inline constexpr const char *kStillTissue = "still", *kNormalTissue = "normal";
+inline constexpr std::array<const char*, 4> kTissueWords{kStillTissue, "soft", kNormalTissue, "stiff"};
+
+/// "soft" and "stiff" are the ends of the range of young_pa, "normal" is its value.
 /// @param tissue from a table. @throws std::invalid_argument for any other word
 TissueSolid stiffness_choice(const TissueSolid& tissue, std::string_view choice);
 

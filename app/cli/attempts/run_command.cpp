@@ -96,7 +96,7 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   if (!turned.empty()) err << "trocar: " << turned << '\n';
   for (const std::string& name : scene.adjacent.set_aside)
     err << "trocar: " << name << " lies over the region and is set aside: neither seen nor felt\n";
-  for (const std::string& name : scene.ducts_left_out)
+  for (const std::string& name : scene.thin_left_out)
     err << "trocar: " << name << " finds no place on this organ and is left out\n";
   for (const std::string& doubt : device_doubts(scene.setup.device, plant)) err << "trocar: " << doubt << '\n';
 }
@@ -148,7 +148,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.exercise = find_exercise(options.exercise, assets.exercises);
   setup.level = options.level;
   setup.organ = options.organ;
-  setup.tissue = options.tissue;
+  setup.tissue = options.tissue.empty() ? setup.exercise.tissue : options.tissue;
   setup.hand = options.hand;
   setup.attempt = std::max(1, options.attempt);
   setup.seed = options.seed;
@@ -285,9 +285,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   run->add_option("--trainee", o.trainee, "Trainee code, created when new")->capture_default_str();
   run->add_option("--db", o.database, "Database file, or :memory:")->check(writable_path());
   run->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
-  run->add_option("--tissue", o.tissue, kTissueForms)
-      ->capture_default_str()
-      ->check(CLI::IsMember(std::vector<std::string>(kTissueWords.begin(), kTissueWords.end())));
+  add_tissue_option(*run, o.tissue);
   run->add_option("--record", o.record, "Recording file (default: beside the database)")->check(writable_path());
   run->add_option("--frames", o.frames, "Folder for PNG frames")->check(writable_path());
   run->add_option("--video", o.video, "Film: FILE.mp4, .webm or .mkv, by ffmpeg")->check(writable_path());

@@ -20,7 +20,7 @@ struct RunOptions {
   std::string hand;      ///< name or SCRIPT.toml
   std::string level = "L1";
   std::string organ = "phantom-liver";  ///< manifest or shipped name
-  std::string tissue = kStillTissue;    ///< or "soft", "normal", "stiff": the organ gives way
+  std::string tissue;                   ///< one of kTissueWords; empty: the exercise's
   std::string trainee = "guest";
   int attempt = 0;  ///< of a learning hand, from 1; 0: one more than the trainee has at the exercise
   std::int64_t seed = 1;

@@ -128,6 +128,7 @@ void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
   run.hand = job.hand;
   run.seed = job.seed;
   run.organ = options.organ;
+  run.tissue = options.tissue;
   run.passivity_law = passivity_law_name(job.arm->law);
   AttemptSetup setup = attempt_setup(run, assets);
   if (job.arm->friction != 1 || job.arm->current != 1) setup.plant = worse_plant(*job.arm, job.seed);
@@ -355,6 +356,7 @@ void add_sweep(CLI::App& parent, CommandAction& chosen) {
       ->capture_default_str();
   sweep->add_option("--seeds", o.seeds, "First and last seed, A..B")->capture_default_str();
   sweep->add_option("--organ", o.organ, kOrganForms)->capture_default_str();
+  add_tissue_option(*sweep, o.tissue);
   sweep->add_option("--jobs", o.jobs, "Attempts at once (0: one a processor)")
       ->capture_default_str()
       ->check(CLI::Range(0, 256));

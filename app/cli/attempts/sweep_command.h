@@ -17,7 +17,8 @@ struct SweepOptions {
   std::string seeds = "1..10";             ///< A..B
   std::vector<std::string> arms{"drawn"};  ///< the seed's own, or worse ones (kArms in sweep_command.cpp)
   std::string organ = "phantom-liver";
-  int jobs = 0;  ///< 0: one a processor
+  std::string tissue;  ///< one of kTissueWords; empty: the exercise's
+  int jobs = 0;        ///< 0: one a processor
   bool json = false;
 };
 

@@ -209,11 +209,14 @@ SceneView attempt_scene(const SessionView& view) {
       out.adjacent.push_back({organ.surface_T, organ.material});
     if (view.scene.soft) out.breath_T = bed_shift(view.scene.setup.exercise.breathing, stylus.t_s);
     const std::vector<SurfacePtr>& thin_T = view.thin_T.empty() ? view.scene.thin_T : view.thin_T;
-    const std::size_t ducts = std::min(thin_T.size(), view.scene.ducts.size());
-    for (std::size_t i = 0; i < ducts; ++i) out.adjacent.push_back({thin_T[i], view.scene.ducts[i].material.name});
-    if (thin_T.size() >= ducts + kOfSuture) {
-      out.wires.push_back({thin_T[ducts], SceneObject::Look::kSteel, kNeedleColour});
-      out.wires.push_back({thin_T[ducts + 1], SceneObject::Look::kPlastic, kThreadColour, kThreadWider});
+    std::vector<std::string> materials;
+    for (const DuctSetup& duct : view.scene.ducts) materials.push_back(duct.material.name);
+    for (const SheetSetup& sheet : view.scene.sheets) materials.push_back(sheet.material.name);
+    const std::size_t tissue = std::min(thin_T.size(), materials.size());
+    for (std::size_t i = 0; i < tissue; ++i) out.adjacent.push_back({thin_T[i], materials[i]});
+    if (thin_T.size() >= tissue + kOfSuture) {
+      out.wires.push_back({thin_T[tissue], SceneObject::Look::kSteel, kNeedleColour});
+      out.wires.push_back({thin_T[tissue + 1], SceneObject::Look::kPlastic, kThreadColour, kThreadWider});
     }
   }
   picture_of(view.scene.setup.exercise).add_objects(view, out.objects);

@@ -83,7 +83,16 @@ class TissueTask final : public Task {
                                                      .tools = scene.loop.tools,
                                                      .soft = scene.soft,
                                                      .ducts = scene.ducts,
-                                                     .suture = scene.suture});
+                                                     .sheets = scene.sheets,
+                                                     .suture = scene.suture,
+                                                     .followed = followed(scene)});
+  }
+  /// Targets on an organ that gives way go along with it.
+  static std::vector<SurfacePlace> followed(const Scene& scene) {
+    std::vector<SurfacePlace> places;
+    if (scene.soft)
+      for (const Target& target : scene.board.targets) places.push_back({target.centre_T, target.normal_T});
+    return places;
   }
   void tell(std::uint64_t tick, std::uint64_t seen_period) {
     for (Outlet<ExerciseFrame>* outlet : {ports_.hand, ports_.observer}) {

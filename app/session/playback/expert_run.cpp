@@ -16,8 +16,8 @@ namespace {
 constexpr int kNiceness = 10;
 
 std::filesystem::path file_of(const AttemptSetup& setup) {
-  std::string all = setup.exercise.text + '\n' + setup.organ + '\n' + std::to_string(setup.seed) + '\n' + setup.hand +
-                    '\n' + TROCAR_VERSION;
+  std::string all = setup.exercise.text + '\n' + setup.organ + '\n' + setup.tissue + '\n' + std::to_string(setup.seed) +
+                    '\n' + setup.hand + '\n' + TROCAR_VERSION;
   std::error_code none;
   if (const auto size = std::filesystem::file_size(setup.organ, none); !none) {  // an organ of one's own may change
     all += '\n' + std::to_string(size) + ' ' +
@@ -50,6 +50,7 @@ AttemptSetup expert_setup(const AttemptSetup& of) {
   setup.exercise = of.exercise;
   setup.level = of.level;
   setup.organ = of.organ;
+  setup.tissue = of.tissue;
   setup.hand = "expert";
   setup.seed = of.seed;
   setup.board = of.board;

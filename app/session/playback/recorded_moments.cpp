@@ -206,7 +206,8 @@ const EmbeddedSurface* RecordedMoments::embedded_for(std::uint64_t topology) con
   if (topology < whole || topology - whole > track_.changes().size()) return nullptr;
   std::vector<const std::string*> cuts;
   for (std::uint64_t i = 0; i < topology - whole; ++i)
-    if (const std::string& bytes = track_.changes()[i].bytes; !is_duct_change(bytes) && !is_suture_event(bytes))
+    if (const std::string& bytes = track_.changes()[i].bytes;
+        !is_duct_change(bytes) && !is_sheet_change(bytes) && !is_suture_event(bytes))
       cuts.push_back(&bytes);
   if (cuts.empty()) return scene_.embedded.get();
   if (!scene_.soft) return nullptr;
@@ -228,16 +229,21 @@ const RecordedMoments::ThinParts& RecordedMoments::thin_for(std::uint64_t topolo
   for (std::uint64_t i = 0; i < made; ++i) changes.push_back(track_.changes()[i].bytes);
   thin_.emplace().changes = made;
   if (!scene_.ducts.empty()) thin_->ducts.emplace(scene_.ducts, changes);
+  if (!scene_.sheets.empty()) thin_->sheets.emplace(scene_.sheets, changes);
   if (scene_.suture) thin_->suture.emplace(*scene_.suture, changes);
   return *thin_;
 }
 
 std::vector<SurfacePtr> RecordedMoments::ThinParts::at(std::span<const NodePlace> nodes_T) const {
-  const std::size_t of_ducts = ducts ? ducts->nodes() : 0;
   std::vector<SurfacePtr> parts;
-  if (ducts) parts = ducts->at(nodes_T.first(of_ducts));
-  if (suture)
-    for (SurfacePtr& part : suture->at(nodes_T.subspan(of_ducts))) parts.push_back(std::move(part));
+  const auto add = [&](const auto& of) {
+    if (!of) return;
+    for (SurfacePtr& part : of->at(nodes_T.first(of->nodes()))) parts.push_back(std::move(part));
+    nodes_T = nodes_T.subspan(of->nodes());
+  };
+  add(ducts);
+  add(sheets);
+  add(suture);
   return parts;
 }
 

@@ -17,6 +17,7 @@
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/thin/duct_tube.h"
+#include "tissue/thin/sheet_body.h"
 
 namespace trocar {
 
@@ -49,10 +50,13 @@ class RecordedMoments {
   void make_surfaces(std::uint64_t period) const;
   struct ThinParts {
     std::optional<DuctPlayback> ducts;
+    std::optional<SheetPlayback> sheets;
     std::optional<SuturePlayback> suture;
     std::uint64_t changes = 0;  ///< that they are after
 
-    std::size_t nodes() const { return (ducts ? ducts->nodes() : 0) + (suture ? suture->nodes() : 0); }
+    std::size_t nodes() const {
+      return (ducts ? ducts->nodes() : 0) + (sheets ? sheets->nodes() : 0) + (suture ? suture->nodes() : 0);
+    }
     std::vector<SurfacePtr> at(std::span<const NodePlace> nodes_T) const;
   };
   const ThinParts& thin_for(std::uint64_t topology) const;

@@ -20,12 +20,14 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
+#include "scenarios/layout/height_field.h"
 #include "scenarios/layout/shaft_room.h"
 #include "tissue/interaction/suturing.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
 #include "tissue/theatre_frame.h"
 #include "tissue/thin/duct_tube.h"
+#include "tissue/thin/sheet_body.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -120,6 +122,8 @@ constexpr double kNoticedForce = 0.1;  // share by which a force must differ to 
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
 constexpr double kLatticeCell = 0.010;                      // m
+constexpr double kSheetClear = 0.0002;                      // m between a sheet and the organ that it lies on
+constexpr double kSteepestSheet = 1.1;                      // rad of the organ beneath it
 constexpr double kDuctReach = 0.015;   // m from where a duct's end is drawn to the organ on which it hangs
 constexpr double kDuctSought = 0.08;   // m from there, on other organs of its kind
 constexpr double kFacesDuct = 0.4;     // cosine between what it hangs on and its way
@@ -221,13 +225,49 @@ void hang_ducts(Scene& scene, const TissueTable& tissues) {
                        plan.material + "'");
     auto path = plan.organ == scene.organ.material ? hung_path(plan, *scene.organ_T) : std::nullopt;
     if (!path) {
-      scene.ducts_left_out.push_back(plan.name);
+      scene.thin_left_out.push_back(plan.name);
       continue;
     }
     scene.ducts.push_back({plan.name, std::move(*path), plan.outer_radius_m, plan.wall_m,
                            stiffness_choice(tissues.find(plan.material), scene.setup.tissue), plan.ends, plan.content});
   }
   scene.thin_T = drawn_tubes(scene.ducts);
+}
+
+/// Laid on the organ from above, as far as it is there; none: a place of it is beside the organ or too steep.
+std::optional<SheetSetup> laid_sheet(const SheetPlan& plan, const HeightField& organ_T) {
+  SheetSetup out{
+      plan.name, rectangular_sheet(plan.along_m.norm(), plan.across_m, plan.edge_m), {}, plan.thickness_m, {}};
+  const Eigen::Vector2d along = plan.along_m.normalized(), across(-along.y(), along.x());
+  for (std::size_t v = 0; v < out.drawn_T.vertices.size(); ++v) {
+    Vec3& vertex = out.drawn_T.vertices[v];
+    if (vertex.y() < 1e-9) out.hinge.push_back(static_cast<std::int32_t>(v));
+    const Eigen::Vector2d at = plan.corner_m + vertex.x() * along + vertex.y() * across;
+    const auto top = organ_T.top(at.x(), at.y());
+    if (!top || top->slope_rad > kSteepestSheet) return std::nullopt;
+    vertex = top->position + (plan.thickness_m / 2 + kSheetClear) * top->normal;
+  }
+  return out;
+}
+
+/// The sheets of the exercise that this organ has. @throws InputError: a tissue that is not known.
+void lay_sheets(Scene& scene, const TissueTable& tissues) {
+  const Exercise& exercise = scene.setup.exercise;
+  if (exercise.sheets.empty()) return;
+  const HeightField field(*scene.organ_T);
+  for (const SheetPlan& plan : exercise.sheets) {
+    if (!tissues.knows(plan.material))
+      throw InputError(exercise.file.string() + ": sheet '" + plan.name + "': 'material': no tissue is called '" +
+                       plan.material + "'");
+    auto laid = plan.organ == scene.organ.material ? laid_sheet(plan, field) : std::nullopt;
+    if (!laid) {
+      scene.thin_left_out.push_back(plan.name);
+      continue;
+    }
+    laid->material = stiffness_choice(tissues.find(plan.material), scene.setup.tissue);
+    scene.sheets.push_back(std::move(*laid));
+  }
+  for (const SurfacePtr& sheet : drawn_sheets(scene.sheets)) scene.thin_T.push_back(sheet);
 }
 
 /// Binds the neighbour that the exercise names, where this organ's scene has one that faces it.
@@ -278,6 +318,7 @@ void soften(Scene& scene) {
   scene.embedded = std::make_shared<EmbeddedSurface>(soft->lattice, scene.organ_T);
   scene.soft = std::move(soft);
   hang_ducts(scene, tissues);
+  lay_sheets(scene, tissues);
   if (const auto& plan = scene.setup.exercise.suture) {
     SutureSetup suture;
     suture.needle.length_m = plan->needle_m;

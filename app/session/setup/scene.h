@@ -20,6 +20,7 @@
 #include "scenarios/layout/organ_placement.h"
 #include "tissue/organ/organ.h"
 #include "tissue/surface_snapshot.h"
+#include "tissue/thin/sheet_setup.h"
 
 namespace trocar {
 
@@ -48,13 +49,11 @@ struct PaceLimits {
 /// a person needs to react to what the eye sees, it is no longer the same task and a fault here too.
 inline constexpr PaceLimits kSimulatedLivePace{250, 0.25};
 
-inline constexpr const char *kStillTissue = "still", *kNormalTissue = "normal";
-
 struct AttemptSetup {
   Exercise exercise;
   std::string level = "L1";
   std::string organ;                  ///< manifest path or name of a shipped organ, as given
-  std::string tissue = kStillTissue;  ///< or how it gives way: a word of stiffness_choice()
+  std::string tissue = kStillTissue;  ///< one of kTissueWords
   std::string hand;                   ///< name or script; a replay knows it and does not use it
   int attempt = 1;                    ///< of a learning hand
   std::int64_t seed = 1;
@@ -84,7 +83,8 @@ struct Scene {
   std::shared_ptr<const SoftSetup> soft;            ///< how it gives way; nullptr: it stands still
   std::shared_ptr<const EmbeddedSurface> embedded;  ///< the organ on the nodes that deform; nullptr: it stands still
   std::vector<DuctSetup> ducts;                     ///< with `soft`, those that the exercise names
-  std::vector<std::string> ducts_left_out;          ///< names of those that find no place on this organ
+  std::vector<std::string> thin_left_out;           ///< names of ducts and sheets that find no place on this organ
+  std::vector<SheetSetup> sheets;                   ///< with `soft`, those that the exercise names
   std::vector<SurfacePtr> thin_T;                   ///< as they lie before a run
   std::shared_ptr<const SutureSetup> suture;        ///< with `soft`, a needle with thread; nullptr: none
   AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several

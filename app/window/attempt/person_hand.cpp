@@ -15,8 +15,11 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   const double felt_n = percept.felt_force_T.norm();
   if (entry_T_ && felt_n > 0) {
     const Vec3 out = percept.felt_force_T / felt_n;
-    const double deeper = -step.dot(out);
-    if (deeper > kPress * dt_s) step += (deeper - kPress * dt_s) * out;
+    const double deeper = -step.dot(out), most = careful_.speed(felt_n) * dt_s;
+    if (deeper > most) step += (deeper - most) * out;
+    careful_.go(std::min(deeper, most));
+  } else {
+    careful_.leave();
   }
   intent_.X_TI.p += step;
   const Eigen::AngleAxisd turn(Mat3(wanted.X_TI.R * intent_.X_TI.R.transpose()));

@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/window/input/careful_press.h"
 #include "haptics/exchange/latest.h"
 #include "scenarios/hands/hand.h"
 
@@ -38,8 +39,7 @@ class PersonHand final : public Hand {
   static constexpr double kTurnSpeed = 6;       ///< rad/s
   static constexpr double kFingerSpeed = 0.05;  ///< m/s: fully open to closed in 0.4 s
 
-  static constexpr double kPress = 0.003;         ///< careful: m/s into what is touched, 0.45 N/s at 150 N/m
-  static constexpr double kFingerPress = 0.0012;  ///< likewise, of the fingers: 0.36 N/s at 300 N/m
+  static constexpr double kFingerPress = 0.0012;  ///< careful: of the fingers, 0.36 N/s at 300 N/m
 
   /// @param link outlives the hand. @param entry_T without a device: where the hand brings the instrument in. Nothing
   /// pushes back then, and what is touched is pressed slowly, so that a force can be had by eye.
@@ -54,6 +54,7 @@ class PersonHand final : public Hand {
   HandIntent intent_;
   std::uint64_t taken_ = 0;  ///< number of the newest intent
   bool holding_ = false;
+  CarefulPress careful_;
 };
 
 }  // namespace trocar

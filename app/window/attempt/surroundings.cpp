@@ -114,6 +114,7 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   out.jaws_apart = out.in_tissue && describe(instruments[in_hand]).jaw_length_m > 0;
   out.touching = record.stylus.contact;
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
+  if (out.touching) out.force_n = record.stylus.F_I_T.force.norm();
   out.gripping = record.stylus.grip_force_n > 0;
   if (!s.scene.level.pointer.glide && !waits_for_start(status.phase)) return out;
   s.ground = s.ground_of(status, record.stylus.X_TI.p);

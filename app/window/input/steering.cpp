@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/window/input/careful_press.h"
 #include "app/window/input/jaw_fingers.h"
 #include "app/window/input/stick_curve.h"
 
@@ -35,7 +36,8 @@ constexpr double kClick_s = 0.2;                            // shorter is a clic
 constexpr double kApproach = 0.012;                         // m/s towards what is not touched yet
 constexpr double kToGround_s = 0.25;                        // over a ground: faster from high above,
 constexpr double kGroundSlow = 0.004, kGroundFast = 0.040;  // within these, m/s
-constexpr double kPress = 0.003;                            // m/s into what is touched: 0.45 N/s at 150 N/m
+constexpr double kFollow = 0.02;                            // m/s per N after what relaxes once the button is let go,
+constexpr double kMostFollowed = 0.004;                     // m at most: no further into what has given way
 constexpr double kShut = 0.001;                             // m: jaws between which nothing is taken
 constexpr double kAhead = 0.0015;                           // m that the target may be deeper than the tip
 constexpr double kLetOff = 0.10;                            // m/s back
@@ -106,7 +108,9 @@ struct Steering::State {
   bool let_go = false, let_off = false;  ///< in this step: kept from now on; a click, or the tip goes away
   Vec3 act_way_T = Vec3::Zero();         ///< what pressing has added to the place
   bool returning = false;                ///< and is taken back
-  double aside_m = 0;                    ///< moved sideways since it is kept
+  CarefulPress careful = {};
+  double kept_n = 0, followed_m = 0;  ///< force that is kept since the button was let go, and the way that it took
+  double aside_m = 0;                 ///< moved sideways since it is kept
   ScopeHand scope = {};
   InputKind kind = InputKind::kMouse;
   // held
@@ -328,17 +332,32 @@ struct Steering::State {
     wanted_T = {foot_T.x(), foot_T.y(), over.level_z_m.value_or(foot_T.z()) + lift_m};
   }
 
+  /// Tissue that is held relaxes. Fingers keep their force; a pointer has none to feel it by.
+  void follow_relaxing(const AtHand& around, double dt_s) {
+    if (let_go && around.touching) kept_n = around.force_n, followed_m = 0;
+    if (acting || returning || around.jaws || !around.touching) kept_n = 0;
+    const double way =
+        std::min({kFollow * (kept_n - around.force_n), CarefulPress::kSlow, (kMostFollowed - followed_m) / dt_s});
+    if (kept_n == 0 || !(way > 0)) return;
+    followed_m += way * dt_s;
+    act_way_T -= way * dt_s * around.normal_T;
+  }
+
   /// What the act button adds: on to the surface, and into it as long as it is held.
   void press(const AtHand& around, const View& view, double dt_s) {
     if (let_off && !around.jaws) returning = true;
     if (acting && acted_s > kClick_s) returning = false;
     if (returning) act_way_T = toward(act_way_T, Vec3::Zero(), kLetOff * dt_s);
     if (act_way_T.isZero()) returning = false;
+    if (!acting || !around.touching) careful.leave();
+    follow_relaxing(around, dt_s);
     if (!acting || around.jaws || returning) return;
     if (around.jaws_apart && !gripping() && around.now.jaw_opening_m > kShut) return;  // else it would take a fold
     const Vec3& tip = around.now.X_TI.p;
     if (around.touching) {
-      act_way_T -= kPress * dt_s * around.normal_T;
+      const double deeper = careful.speed(around.force_n) * dt_s;
+      careful.go(deeper);
+      act_way_T -= deeper * around.normal_T;
     } else if (ground > 0) {
       const double speed = std::clamp((lift_m + act_way_T.z()) / kToGround_s, kGroundSlow, kGroundFast);
       act_way_T.z() -= speed * dt_s;

@@ -7,9 +7,9 @@
 // only tip and roll can be had.
 //
 // One button acts: it presses the closed tip on to what lies below and into it, or closes the jaws where something is
-// to be gripped. Held, the force grows; let go, it stays; a click lets off. Over a ground the tip glides at a height.
-// Where instruments are worked in tissue the jaws have a control of their own: held, they close, and let go, they open;
-// act presses with closed jaws. Pedal and exchange switch are handed on as they are held.
+// to be gripped. Held, the force grows; let go, it stays, also on tissue that relaxes; a click lets off. Over a ground
+// the tip glides at a height. Where instruments are worked in tissue the jaws have a control of their own: held, they
+// close, and let go, they open; act presses with closed jaws. Pedal and exchange switch are handed on as they are held.
 // Frame T, m, rad. Same events and same steps give the same intents. Thread: the
 // window's.
 #pragma once
@@ -42,6 +42,7 @@ struct AtHand {
   bool jaws_apart = false;              ///< there, and the instrument in hand has jaws
   bool touching = false;                ///< the instrument feels a force
   Vec3 normal_T = Vec3::UnitZ();        ///< out of what it touches
+  double force_n = 0;                   ///< and how hard
   bool gripping = false;                ///< so do the jaws
   const GlideGround* ground = nullptr;  ///< to glide over
 };

@@ -87,6 +87,7 @@ void LessonPicture::State::advance_scene(PracticeModel& model, double wait_s) {
   setup.exercise = model.exercise();
   setup.level = model.level;
   setup.organ = model.organ;
+  setup.tissue = model.tissue();
   setup.board = drawn_board(setup.seed, false);
   making_key = key;
   making = std::async(std::launch::async, load, setup, model.assets());

@@ -151,9 +151,11 @@ std::optional<ScreenName> StartScreen::plays(Ui& ui, PracticeModel& model) {
   ui.same_line();
   if (ui.button("gallbladder", w("Gallbladder"))) chosen = Play::kGallbladder;
   ui.explain(w("Peel the gallbladder off its bed: no clock, no score."));
-  ui.same_line();
   if (ui.button("stitching", w("Stitching"))) chosen = Play::kStitching;
   ui.explain(w("A needle and a thread: no clock, no score."));
+  ui.same_line();
+  if (ui.button("flap", w("Flap"))) chosen = Play::kFlap;
+  ui.explain(w("Lift the flap and look beneath: no clock, no score."));
   if (t_s_ > kFirstWait_s && model.tutorial_due()) chosen = Play::kTutorial;
   if (!chosen) return {};
   if (const std::string hindered = model.begin_play(*chosen); !hindered.empty()) {

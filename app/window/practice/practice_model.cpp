@@ -22,7 +22,8 @@ namespace trocar {
 namespace {
 
 /// Of what nobody grades, in the order of Play.
-constexpr std::array kFileOfPlay{"", "tutorial.toml", "free-play.toml", "gallbladder.toml", "stitching.toml"};
+constexpr std::array kFileOfPlay{"",         "tutorial.toml", "free-play.toml", "gallbladder.toml", "stitching.toml",
+                                 "flap.toml"};
 
 constexpr const char *kTutorialOrgan = "phantom-liver", *kWithGallbladder = "phantom-abdomen";
 constexpr int kHeldBackFrom = 5;                      // wrong PINs in a row, that the audit trail tells of
@@ -309,7 +310,7 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   out.setup.exercise = std::move(exercise);
   out.setup.level = level;
   out.setup.organ = organ;
-  if (!options.tissue.empty()) out.setup.tissue = options.tissue;
+  out.setup.tissue = tissue_of(out.setup.exercise);
   out.setup.hand = hand();
   if (at_pointer()) out.setup.backend = kPointerBackend;
   out.setup.realtime = true;
@@ -365,7 +366,6 @@ std::string PracticeModel::begin_play(Play what) {
                                        : lone   ? kWithGallbladder
                                                 : organ);
     request.graded = false;
-    if (!tutorial && s.options.tissue.empty()) request.setup.tissue = kNormalTissue;
     return s.run(std::move(request), what);
   } catch (const InputError& error) {
     return error.what();
@@ -373,6 +373,8 @@ std::string PracticeModel::begin_play(Play what) {
 }
 
 Play PracticeModel::playing() const { return state_->play; }
+
+std::string PracticeModel::tissue() const { return state_->tissue_of(exercise()); }
 
 bool PracticeModel::tutorial_due() const {
   const State& s = *state_;
@@ -446,6 +448,7 @@ std::filesystem::path PracticeModel::expert_recording() {
   setup.exercise = exercise();
   setup.level = level;
   setup.organ = organ;
+  setup.tissue = tissue();
   setup.seed = s.options.seed.value_or(1);
   setup.board = drawn_board(setup.seed, false);
   const bool same = s.result && s.result->exercise_id == exercise_id && s.result->level == level;

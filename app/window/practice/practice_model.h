@@ -24,7 +24,7 @@
 namespace trocar {
 
 /// What runs: an attempt, or what nobody grades and nothing keeps.
-enum class Play : std::uint8_t { kAttempt, kTutorial, kFree, kGallbladder, kStitching };
+enum class Play : std::uint8_t { kAttempt, kTutorial, kFree, kGallbladder, kStitching, kFlap };
 
 struct ModelOptions {
   std::filesystem::path database = {};  ///< empty: the default; ":memory:" keeps nothing
@@ -33,7 +33,7 @@ struct ModelOptions {
   std::string level = "L1";
   std::optional<Play> play = {};  ///< straight to it
   std::string organ = "phantom-liver";
-  std::string tissue = {};  ///< as AttemptSetup::tissue; empty: gives way in free play, stands still elsewhere
+  std::string tissue = {};  ///< one of kTissueWords; empty: the exercise's
   std::string input = "auto";
   std::filesystem::path settings = {};  ///< empty: settings_file()
   std::string hand = {};  ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name
@@ -106,6 +106,8 @@ class PracticeModel {
   std::optional<std::string> teacher_note() const;
 
   // the attempt
+  /// How the organ of the chosen exercise gives way: one of kTissueWords.
+  std::string tissue() const;
   /// Will the next attempt be done at mouse, keys or pad, without a device?
   bool at_pointer() const;
   /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.

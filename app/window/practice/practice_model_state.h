@@ -79,6 +79,10 @@ struct PracticeModel::State {
   void look_for_message();
   bool show_message(std::string& notice);
   std::shared_ptr<const Scene> built(AttemptSetup setup) const;
+  /// How the organ of an exercise gives way: one of kTissueWords.
+  const std::string& tissue_of(const Exercise& exercise) const {
+    return options.tissue.empty() ? exercise.tissue : options.tissue;
+  }
   AttemptRequest request(Exercise exercise, const std::string& level, const std::string& organ) const;
   std::string run(AttemptRequest request, Play what);
   std::int64_t seed() const;

@@ -1,5 +1,7 @@
 #include "scenarios/kinds/touch/disc_task.h"
 
+#include "tissue/tissue_frame.h"
+
 namespace trocar {
 namespace {
 
@@ -33,11 +35,11 @@ bool DiscTask::leaving_last_disc(const Vec3& point_T) const {
   return (point_T - last.centre_T).norm() - last.radius_m <= wrong_place_m_ + kLiftOff;
 }
 
-void DiscTask::judge_contact(const StylusState& state, bool new_contact, double dt_s, EventLog& log) {
+void DiscTask::judge_contact(const Vec3& point_T, bool new_contact, double dt_s, EventLog& log) {
   const Target& target = targets_[static_cast<std::size_t>(index_)];
-  const double distance = (state.contact_point_T - target.centre_T).norm();
+  const double distance = (point_T - target.centre_T).norm();
   const double outside = distance - target.radius_m;
-  const bool astray = outside > wrong_place_m_ && !leaving_last_disc(state.contact_point_T);
+  const bool astray = outside > wrong_place_m_ && !leaving_last_disc(point_T);
   astray_s_ = astray ? astray_s_ + dt_s : 0;
   const bool dragged = astray_s_ > kDragTime && !strayed_;  // once a disc: sliding there instead of lifting
   if ((new_contact && outside > wrong_place_m_) || dragged) {
@@ -61,9 +63,12 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   touching_ = state.contact && state.tip_contact;
   on_disc_ = false;
   if (touching_) {
-    const bool hopped = free_s_ > 0 && (state.contact_point_T - last_contact_T_).norm() > kHop;
-    judge_contact(state, free_s_ >= kNewContactAfter || hopped, dt_s, log);
-    last_contact_T_ = state.contact_point_T;
+    // On tissue that gives way what counts is where on it: discs and contact are compared at rest.
+    const bool moved = input.tissue && input.tissue->touched_rest_T;
+    const Vec3 point = moved ? *input.tissue->touched_rest_T : state.contact_point_T;
+    const bool hopped = free_s_ > 0 && (point - last_contact_T_).norm() > kHop;
+    judge_contact(point, free_s_ >= kNewContactAfter || hopped, dt_s, log);
+    last_contact_T_ = point;
   }
   free_s_ = touching_ ? 0 : free_s_ + dt_s;
   const double force = state.F_I_T.force.norm();
@@ -104,7 +109,9 @@ void DiscTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.cue = on_disc_ ? Cue::kPress : Cue::kReach;
   if (finished()) return;
   const Target& target = targets_[static_cast<std::size_t>(index_)];
-  status.demand = {target.centre_T, target.normal_T, target.radius_m, false, Mat3::Identity(), 0, target.band};
+  SurfacePlace place{target.centre_T, target.normal_T};
+  if (input.tissue && index_ < input.tissue->place_count) place = input.tissue->place[static_cast<std::size_t>(index_)];
+  status.demand = {place.point_T, place.normal_T, target.radius_m, false, Mat3::Identity(), 0, target.band};
   const double force = input.stylus.F_I_T.force.norm();
   status.force_shown = force_shown(display_, touching_ && (force < target.band.low_n || force > target.band.high_n));
   hints(input, target.band, status);

@@ -25,11 +25,11 @@ class DiscTask final : public ExerciseTask {
   void light(EventLog& log);
   void hints(const TaskInput& input, const WantedForce& band, DirectorStatus& status) const;
   bool leaving_last_disc(const Vec3& point_T) const;
-  void judge_contact(const StylusState& state, bool new_contact, double dt_s, EventLog& log);
+  void judge_contact(const Vec3& point_T, bool new_contact, double dt_s, EventLog& log);
 
   double wrong_place_m_;
   std::string display_;
-  std::vector<Target> targets_;
+  std::vector<Target> targets_;  ///< at rest
   HoldTimer hold_;
   int index_ = 0, wrong_places_ = 0;
   bool touched_ = false, touching_ = false, on_disc_ = false;  ///< on it: within half the wrong-place margin

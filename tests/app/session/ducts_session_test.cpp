@@ -119,7 +119,7 @@ TEST(DuctsSession, AnOrganThatStandsStillOrIsNoLiverGoesWithoutThem) {
   EXPECT_TRUE(ducts_scene("still").ducts.empty());
   const Scene gallbladder = ducts_scene("normal", "phantom-gallbladder");
   EXPECT_TRUE(gallbladder.ducts.empty());
-  EXPECT_EQ(gallbladder.ducts_left_out, (std::vector<std::string>{"cystic duct", "cystic artery"}));
+  EXPECT_EQ(gallbladder.thin_left_out, (std::vector<std::string>{"cystic duct", "cystic artery"}));
 }
 
 TEST(DuctsSession, ATissueThatIsNotKnownIsNamed) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "scenarios/director/cue_percept.h"
 #include "scenarios/files/exercise_loader.h"
+#include "tissue/tissue_frame.h"
 
 namespace trocar::director_test {
 namespace {
@@ -35,7 +37,7 @@ class DirectorTest : public testing::Test {
     const int updates = static_cast<int>(std::lround(seconds * 100));
     for (int i = 0; i < updates; ++i) {
       state_.t_s += 0.01;
-      director_.update(state_);
+      director_.update(state_, tissue_ ? &*tissue_ : nullptr);
     }
   }
   void at(const Vec3& tip) {
@@ -75,7 +77,33 @@ class DirectorTest : public testing::Test {
   Exercise exercise_;
   Director director_;
   StylusState state_;
+  std::optional<TissueFrame> tissue_;
 };
+
+TEST_F(DirectorTest, ADiscGoesAlongWithTissueThatGivesWay) {
+  const Vec3 moved(0.02, 0.005, -0.008), normal = Vec3(0, 0.6, 0.8);
+  tissue_.emplace();
+  tissue_->place_count = 2;
+  tissue_->place[0] = {moved, normal};
+  tissue_->place[1] = {board().targets[1].centre_T, Vec3::UnitZ()};
+  start();
+  EXPECT_EQ(director_.status().demand.centre_T, moved);
+  EXPECT_EQ(director_.status().demand.normal_T, normal);
+  pressing(moved - Vec3(0, 0, 0.01), 0.6);  // the felt surface is without the tool's own dent
+  tissue_->touched_rest_T = board().targets[0].centre_T + Vec3(0.001, 0, 0);
+  feed(1.1);
+  EXPECT_EQ(director_.status().targets_done, 1);
+  EXPECT_EQ(count("WRONG_PLACE"), 0);
+  // Where the next one is drawn at rest lies other tissue once all has been carried away.
+  at(Vec3(0, 0, 0.03));
+  feed(0.3);
+  pressing(board().targets[1].centre_T, 0.6);
+  tissue_->touched_rest_T = board().targets[1].centre_T - Vec3(0, 0.01, 0);
+  feed(1.1);
+  EXPECT_EQ(director_.status().targets_done, 1);
+  EXPECT_EQ(count("WRONG_PLACE"), 1);
+  EXPECT_EQ(director_.board().targets[1].centre_T, board().targets[1].centre_T) << "pictures paint them at rest";
+}
 
 TEST_F(DirectorTest, ArmsInTheStartBallAndRunsAfterOneSecond) {
   feed(0.5);

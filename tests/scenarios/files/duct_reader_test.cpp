@@ -93,6 +93,24 @@ TEST(SutureReader, ReadsThatOfStitchingAndNamesItsMistakes) {
   EXPECT_NE(without.find("'suture' needs a 'needle-driver'"), std::string::npos) << without;
 }
 
+TEST(SheetReader, ReadsThatOfTheFlapAndNamesItsMistakes) {
+  const Exercise flap = load_exercise(kExercises / "ungraded/flap.toml");
+  ASSERT_EQ(flap.sheets.size(), 1U);
+  EXPECT_EQ(flap.sheets[0].organ, "liver");
+  EXPECT_NEAR(flap.sheets[0].along_m.norm(), 0.040, 1e-12);
+  EXPECT_DOUBLE_EQ(flap.sheets[0].across_m, 0.030);
+  EXPECT_DOUBLE_EQ(flap.sheets[0].thickness_m, 0.002);
+  EXPECT_TRUE(load_exercise(kExercises / "ungraded/free-play.toml").sheets.empty());
+  const auto said = [text = flap.text](const std::string& from, const std::string& to) {
+    return test::refusal(test::edited(text, from, to));
+  };
+  EXPECT_NE(said("across_mm = 30", "across_mm = 0").find("'across_mm'"), std::string::npos);
+  EXPECT_NE(said("edge_mm = 3.5", "edge_mm = 1").find("more than 800 triangles"), std::string::npos);
+  EXPECT_NE(said("hinge_to_mm = [-20, 15]", "hinge_to_mm = [20, 16]").find("shorter than 5 mm"), std::string::npos);
+  EXPECT_NE(said("thickness_mm = 2", "thickness_mm = 2\nthick_mm = 2").find("unknown key 'thick_mm'"),
+            std::string::npos);
+}
+
 TEST(LieReader, ReadsThatOfTheGallbladderAndNamesItsMistakes) {
   const Exercise gallbladder = load_exercise(kExercises / "ungraded/gallbladder.toml");
   ASSERT_TRUE(gallbladder.lie);

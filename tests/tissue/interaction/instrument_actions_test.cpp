@@ -33,6 +33,8 @@ class Theatre {
     for (const InstrumentKind kind : kinds) setup_.tools.push_back(make_tool(kind));
     setup_.soft = soft;
     if (sews) setup_.suture = std::make_shared<SutureSetup>();
+    if (sews) setup_.sheets = {flap()};
+    setup_.followed = {pole(), {{0, 0, -0.035}, -Vec3::UnitZ()}};
     world_ = std::make_unique<TissueWorld>(setup_);
     state_.stylus.instrument = 0;
   }
@@ -57,6 +59,19 @@ class Theatre {
     wait(1);
   }
   void take(int instrument) { state_.stylus.instrument = instrument; }
+  /// 24 by 20 mm beside the pole, hung on along the side that is nearer to it.
+  static SheetSetup flap() {
+    SheetSetup sheet{"flap", rectangular_sheet(0.020, 0.024, 0.004), {}, 0.0015, {}};
+    sheet.material.young_pa = 6000;
+    for (std::size_t v = 0; v < sheet.drawn_T.vertices.size(); ++v) {
+      Vec3& at = sheet.drawn_T.vertices[v];
+      if (at.y() < 1e-9) sheet.hinge.push_back(static_cast<std::int32_t>(v));
+      const double x = 0.015 + at.y(), y = 0.010 - at.x();
+      at = Vec3(x, y, top(x, y) + 0.001);
+    }
+    return sheet;
+  }
+  static SurfacePlace pole() { return {{0, 0, 0.035}, Vec3::UnitZ()}; }
   static double top(double x, double y) { return 0.035 * std::sqrt(1 - std::pow(x / 0.06, 2) - std::pow(y / 0.05, 2)); }
 
   const TissueFrame& frame() const { return world_->frame(); }
@@ -143,6 +158,33 @@ TEST(InstrumentActions, ScissorsInTheAirRefuseAndSayWhy) {
   // Closed jaws that were never open cut nothing either.
   for (int i = 0; i < 20; ++i) theatre.step({0, 0, 0.03}, 0);
   EXPECT_EQ(theatre.surgery().refusals, 1);
+}
+
+TEST(InstrumentActions, FollowedPlacesGoAlongWithTheTissue) {
+  Theatre theatre({InstrumentKind::kProbe, InstrumentKind::kScissors}, 0.010);
+  const auto place = [&](std::size_t i) { return theatre.frame().place[i]; };
+  theatre.wait(1);
+  ASSERT_EQ(theatre.frame().place_count, 2);
+  EXPECT_LT((place(0).point_T - Theatre::pole().point_T).norm(), 2e-4);
+  EXPECT_LT((place(1).point_T + Theatre::pole().point_T).norm(), 2e-4);
+  // Beside the pole: it sinks, and the side that is pressed lies deeper.
+  for (int i = 0; i < 40; ++i) theatre.step({0.008, 0, Theatre::top(0.008, 0) - 1e-4 * i}, 0);
+  EXPECT_LT(place(0).point_T.z(), 0.0345);
+  ASSERT_TRUE(theatre.frame().touched_rest_T);
+  EXPECT_LT((*theatre.frame().touched_rest_T - Vec3(0.008, 0, Theatre::top(0.008, 0))).norm(), 0.005);
+  EXPECT_GT(place(0).normal_T.x(), 0.01);
+  EXPECT_NEAR(place(0).normal_T.norm(), 1, 1e-12);
+  theatre.wait(300);
+  EXPECT_FALSE(theatre.frame().touched_rest_T);
+  EXPECT_LT((place(0).point_T - Theatre::pole().point_T).norm(), 5e-4) << "let go, it comes back";
+  // A cut through it leaves it on one of the lips.
+  theatre.take(1);
+  theatre.presses = false;
+  theatre.snip(0, 0, 0.006);
+  ASSERT_EQ(theatre.surgery().cuts, 1);
+  theatre.wait(300);
+  EXPECT_TRUE(place(0).point_T.allFinite());
+  EXPECT_LT((place(0).point_T - Theatre::pole().point_T).norm(), 5e-3);
 }
 
 TEST(InstrumentActions, AHookDrawnAlongWithThePedalCutsAndWithoutItDoesNot) {
@@ -251,7 +293,7 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
   double opening = 0.01, wanted = 0.01, turned = 0;
   bool pedal = false;
   for (int i = 0; i < steps; ++i) {
-    if (i % 20 == 0) {
+    if (i % 12 == 0) {
       // On the organ, into it, above it; every other time where it was, with the jaws moved.
       const double x = 0.09 * (share() - 0.5), y = 0.07 * (share() - 0.5);
       if (share() < 0.5) to = {x, y, theatre.top(x, y) + 0.030 * share() - 0.012};
@@ -270,6 +312,8 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
     expect_manifold(*theatre.world().surface());
   }
   theatre.wait(200);
+  for (const SurfacePtr& thin : theatre.world().thin())
+    for (const Vec3& vertex : thin->vertices) ASSERT_TRUE(vertex.allFinite());
   // The organ's own: a thread may still slide down beside it.
   const TissueShape shape = theatre.world().shape();
   const auto nodes = shape.nodes_T.first(shape.nodes_T.size() - shape.thin_T.size());
@@ -285,7 +329,7 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
       "%d steps: %d cuts, %d tears, %d clips, %d refused, %.1f mL, %.0f J; %d needles, %d punctures, %d stitches\n",
       steps, done.cuts, done.tears, done.clips, done.refusals, done.blood_ml, done.heat_j, sewn.needles, sewn.punctures,
       sewn.stitches);
-  EXPECT_GT(done.cuts, steps / 1000);
+  EXPECT_GE(done.cuts, steps / 200) << "500 in 10^6 ticks";
   EXPECT_GT(done.heat_j, 10);
 }
 

@@ -8,6 +8,7 @@
 #include "app/session/setup/placement.h"
 #include "app/session/setup/workspace_proof.h"
 #include "haptics/device/transmission.h"
+#include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/layout/board_numbers.h"

@@ -160,6 +160,60 @@ TEST(SteeringPress, GoesAlongTheViewThenSlowlyIntoWhatIsTouchedAndStaysWhenLetGo
   EXPECT_LT((s.tip() - kept).norm(), 1e-12);
 }
 
+TEST(SteeringPress, TheSofterWhatIsTouchedTheFasterItGoesIn) {
+  for (const auto& [stiffness, speed] : {std::pair(30.0, 0.012), {75.0, 0.006}, {150.0, 0.003}, {600.0, 0.003}}) {
+    Steered s;
+    s.around.jaws = false;
+    s.around.touching = true;
+    s.around.normal_T = Vec3::UnitX();
+    s.button(MouseButton::kLeft, true);
+    const Vec3 touched = s.tip();
+    const auto deep = [&] { return -(s.tip() - touched).x(); };
+    for (int i = 0; i < 50; ++i) {
+      s.around.force_n = stiffness * deep();
+      s.run(kStep_s);
+    }
+    const double before = deep();
+    for (int i = 0; i < 20; ++i) {
+      s.around.force_n = stiffness * deep();
+      s.run(kStep_s);
+    }
+    EXPECT_NEAR((deep() - before) / (20 * kStep_s), speed, 0.05 * speed) << stiffness;
+  }
+}
+
+TEST(SteeringPress, LetGoItKeepsItsForceOnTissueThatRelaxesButFollowsNothingThatHasGivenWay) {
+  Steered s;
+  s.around.jaws = false;
+  s.around.touching = true;
+  s.around.normal_T = Vec3::UnitX();
+  s.button(MouseButton::kLeft, true);
+  const Vec3 touched = s.tip();
+  const auto deep = [&] { return -(s.tip() - touched).x(); };
+  double stiffness = 75;
+  const auto run = [&](double seconds) {
+    for (int i = 0; i < std::lround(seconds / kStep_s); ++i) {
+      s.around.force_n = stiffness * deep();
+      s.run(kStep_s);
+    }
+  };
+  run(1.2);
+  s.button(MouseButton::kLeft, false);
+  run(kStep_s);
+  const double force = stiffness * deep(), depth = deep();
+  stiffness = 60;
+  run(2);
+  EXPECT_NEAR(stiffness * deep(), force, 0.05 * force);
+  EXPECT_GT(deep(), depth + 0.0005);
+  stiffness = 1;
+  run(5);
+  EXPECT_LT(deep(), depth + 0.0041);
+  s.around.touching = false;
+  const double left = deep();
+  run(1);
+  EXPECT_DOUBLE_EQ(deep(), left);
+}
+
 TEST(SteeringPress, AClickOrAWayAsideLetsOff) {
   for (const bool click : {true, false}) {
     Steered s;

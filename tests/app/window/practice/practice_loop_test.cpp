@@ -49,7 +49,7 @@ TEST_F(PracticeLoopTest, KeyboardAloneQuitsThroughTheMenu) {
 TEST_F(PracticeLoopTest, KeyboardAloneSignsIn) {
   frame();
   frame();
-  tab(6);  // Try now, tutorial, free play, gallbladder, stitching, code
+  tab(7);  // Try now, tutorial, free play, gallbladder, stitching, flap, code
   frame();
   frame();
   frame(typed("T-7"));

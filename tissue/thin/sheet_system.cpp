@@ -1,0 +1,366 @@
+#include "tissue/thin/sheet_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/input_error.h"
+#include "tissue/thin/rod_on_solid.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kEarth = 9.81;        // m/s2
+constexpr double kOpenBlades = 0.003;  // m from which on a sheet can come between them (a choice)
+constexpr double kCutReach = 0.9;      // of an edge: how far from the blades' line the cut runs
+constexpr double kResistBlock = 500;   // N/m of what blades cut, about its force
+constexpr double kBurnReach = 0.8;     // of an edge, round the hook's tip
+constexpr double kLeastPress = 1e-5;   // N of a node on the organ that the organ is told of
+constexpr double kNoSheetDrag = 1e-6;  // N
+constexpr int kSearch = 12;            // vertices of the organ that a node may pass in a step
+
+bool carries(const SolvedContact& contact) {
+  return contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() && contact.normal_T.allFinite();
+}
+
+SheetOptions options_of(const SheetSetup& setup, double step_s) {
+  SheetOptions options = sheet_options(setup.material, setup.thickness_m);
+  options.gravity_m_s2 = {0, 0, -kEarth};
+  options.step_s = step_s;
+  return options;
+}
+
+std::int32_t nearest_of(std::span<const Vec3> vertices, const Vec3& place) {
+  const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - place).squaredNorm() < (b - place).squaredNorm();
+  });
+  return static_cast<std::int32_t>(nearest - vertices.begin());
+}
+
+const Vec3& vertex_of(const SurfaceSnapshot& surface, std::int32_t v) {
+  return surface.vertices[static_cast<std::size_t>(v)];
+}
+
+}  // namespace
+
+SheetSystem::SheetSystem(std::span<const SheetSetup> sheets, const SoftOrgan& organ, const SheetSystemOptions& options)
+    : options_(options) {
+  know(organ);
+  for (const SheetSetup& setup : sheets) {
+    try {
+      ElasticSheet sheet(setup.drawn_T, options_of(setup, organ.solid().options().step_s));
+      sheets_.push_back({setup, std::move(sheet), SheetSurface(setup), SheetGrip(options_.grip)});
+    } catch (const InputError& error) {
+      throw InputError("sheet '" + setup.name + "': " + error.what());
+    }
+    Sheet& of = sheets_.back();
+    of.edge_m = std::sqrt(of.sheet.mean_area_m2() * 4 / std::sqrt(3.0));
+    for (const Vec3& place : of.sheet.position()) of.beneath.push_back(nearest_of(organ.rest()->vertices, place));
+    for (const std::int32_t node : setup.hinge) {
+      if (node < 0 || static_cast<std::size_t>(node) >= of.beneath.size())
+        throw InputError("sheet '" + setup.name + "': a place of its hinge is none");
+      const std::int32_t vertex = of.beneath[static_cast<std::size_t>(node)];
+      of.hinge.push_back(
+          {node, vertex, of.sheet.position()[static_cast<std::size_t>(node)] - vertex_of(*organ.rest(), vertex)});
+    }
+    for (const auto& corner : of.sheet.triangles()) {
+      contact_.triangles.push_back(corner);  // numbered by follow()
+      sheet_of_triangle_.push_back(static_cast<std::int32_t>(sheets_.size() - 1));
+    }
+  }
+  between_.assign(contact_.triangles.size(), false);
+  follow();
+  grown_ = false;
+}
+
+void SheetSystem::know(const SoftOrgan& organ) {
+  organ_topology_ = organ.topology();
+  const SurfaceSnapshot& rest = *organ.rest();
+  fan_.assign(rest.vertices.size(), {});
+  for (std::size_t t = 0; t < rest.triangles.size(); ++t) {
+    if (!rest.inside.empty() && rest.inside[t]) continue;
+    for (const std::int32_t v : rest.triangles[t])
+      fan_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(t));
+  }
+}
+
+NodeShares SheetSystem::shares_at(const SoftOrgan& organ, std::int32_t vertex) const {
+  const auto& fan = fan_[static_cast<std::size_t>(vertex)];
+  if (fan.empty()) return {};
+  const auto& corners = organ.rest()->triangles[static_cast<std::size_t>(fan.front())];
+  MaterialPoint place{fan.front(), {0, 0, 0}};
+  place.weight[static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin())] = 1;
+  return organ.shares_of(place);
+}
+
+Vec3 SheetSystem::normal_at(const SoftOrgan& organ, std::int32_t vertex) const {
+  Vec3 sum = Vec3::Zero();
+  const SurfaceSnapshot& now = *organ.surface();
+  for (const std::int32_t t : fan_[static_cast<std::size_t>(vertex)]) {
+    const auto& [a, b, c] = now.triangles[static_cast<std::size_t>(t)];
+    sum += (vertex_of(now, b) - vertex_of(now, a)).cross(vertex_of(now, c) - vertex_of(now, a));
+  }
+  return sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
+}
+
+bool SheetSystem::jaws_taken(const StylusState& stylus, const Tool& tool, bool present) const {
+  if (!present || !std::isfinite(stylus.jaw_opening_m) || !stylus.X_TI.p.allFinite() || !stylus.X_TI.R.allFinite())
+    return false;
+  const bool grasps = tool.kind == InstrumentKind::kGrasper;
+  if (!grasps && tool.kind != InstrumentKind::kScissors) return false;
+  if (!grasps && open_) return true;
+  return std::any_of(sheets_.begin(), sheets_.end(), [&](const Sheet& of) {
+    return of.grip.state() != GripState::kEmpty ||
+           !triangles_between(of.sheet, stylus.X_TI, grasps ? options_.grip.pad_length_m : options_.scissors.blade_m,
+                              grasps ? options_.grip.pad_width_m : options_.scissors.width_m, stylus.jaw_opening_m, 0)
+                .empty();
+  });
+}
+
+/// Springs of the loop's contacts on one sheet, and of their friction.
+void SheetSystem::touch(std::size_t sheet, const SheetContacts& given, std::vector<SheetSpring>& springs) {
+  if (given.first_triangle < 0) return;
+  std::int32_t first = given.first_triangle;
+  for (std::size_t s = 0; s < sheet; ++s) first += static_cast<std::int32_t>(sheets_[s].sheet.triangles().size());
+  const ElasticSheet& of = sheets_[sheet].sheet;
+  for (std::int32_t i = 0; i < given.contacts.count; ++i) {
+    const SolvedContact& contact = given.contacts.at[static_cast<std::size_t>(i)];
+    MaterialPoint place = contact.place;
+    place.triangle -= first;
+    if (place.triangle < 0 || place.triangle >= static_cast<std::int32_t>(of.triangles().size()) || !carries(contact))
+      continue;
+    const double stiffness = contact.share * options_.touch_n_per_m;
+    springs.push_back({.place = place,
+                       .direction = contact.normal_T,
+                       .stiffness_n_per_m = stiffness,
+                       .stretch_m = contact.normal_T.dot(of.place_T(place) - contact.tool_T),
+                       .pushes_only = true});
+    const Vec3 drag = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
+    const double size = drag.norm();
+    if (size < kNoSheetDrag) continue;
+    springs.push_back({.place = place,
+                       .direction = drag / size,
+                       .stiffness_n_per_m = options_.drag_share * stiffness,
+                       .stretch_m = size / (options_.drag_share * stiffness)});
+  }
+}
+
+/// Springs of the nodes that are in the organ, or within half a thickness of it.
+void SheetSystem::lie(Sheet& of, const SoftOrgan& organ, std::vector<SheetSpring>& springs) {
+  of.lying = springs.size();
+  of.on_organ.clear();
+  const SurfaceSnapshot& now = *organ.surface();
+  std::vector<MaterialPoint> place(of.sheet.position().size());
+  for (std::size_t t = 0; t < of.sheet.triangles().size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      MaterialPoint& at = place[static_cast<std::size_t>(of.sheet.triangles()[t][i])];
+      if (at.triangle >= 0) continue;
+      at.triangle = static_cast<std::int32_t>(t);
+      at.weight[i] = 1;
+    }
+  for (std::size_t n = 0; n < of.beneath.size(); ++n) {
+    std::int32_t& nearest = of.beneath[n];
+    const Vec3& p = of.sheet.position()[n];
+    double least = (vertex_of(now, nearest) - p).squaredNorm();
+    for (int step = 0; step < kSearch; ++step) {
+      std::int32_t better = -1;
+      for (const std::int32_t t : fan_[static_cast<std::size_t>(nearest)])
+        for (const std::int32_t v : now.triangles[static_cast<std::size_t>(t)])
+          if (const double there = (vertex_of(now, v) - p).squaredNorm(); there < least) least = there, better = v;
+      if (better < 0) break;
+      nearest = better;
+    }
+    const Vec3 normal = normal_at(organ, nearest);
+    const double deep = of.sheet.options().thickness_m / 2 - normal.dot(p - vertex_of(now, nearest));
+    if (deep <= 0 || deep > options_.lying_reach_m) continue;
+    springs.push_back({.place = place[n],
+                       .direction = -normal,
+                       .stiffness_n_per_m = options_.lying_n_per_m,
+                       .stretch_m = deep,
+                       .pushes_only = true});
+    of.on_organ.push_back(static_cast<std::int32_t>(n));
+  }
+}
+
+void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts, const Tool& tool, bool present,
+                       const SoftOrgan& organ, std::vector<SoftSpring>& springs) {
+  const StylusState& stylus = newest.stylus;
+  changed_.clear();
+  closed_ = false;
+  block_ = {};
+  hold_ = {};
+  if (organ.topology() != organ_topology_) know(organ);
+  const bool sound =
+      present && stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite() && std::isfinite(stylus.jaw_opening_m);
+  if (sound && tool.kind == InstrumentKind::kScissors)
+    use_scissors(stylus);
+  else
+    open_ = false;
+  if (sound && tool.kind == InstrumentKind::kHook && stylus.pedal)
+    burn(stylus, contacts);
+  else
+    burns_ = false;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    Sheet& of = sheets_[s];
+    for (const Hinge& hinge : of.hinge) {
+      const RodAnchor at = anchor_on(organ.solid(), shares_at(organ, hinge.vertex), options_.hinge_n_per_m);
+      of.sheet.anchor({hinge.node, at.position + hinge.offset_T, at.velocity, at.stiffness_n_per_m});
+    }
+    std::vector<SheetSpring> of_sheet;
+    if (sound && tool.kind == InstrumentKind::kGrasper)
+      of.grip.reach(stylus.X_TI, stylus.jaw_opening_m, of.sheet, of_sheet);
+    else
+      of.grip.let_go();
+    const std::size_t of_jaws = of_sheet.size();
+    if (present) touch(s, contacts, of_sheet);
+    lie(of, organ, of_sheet);
+    of.sheet.step(of_sheet);
+    if (of.grip.state() != GripState::kEmpty) {
+      of.grip.feel(stylus.X_TI, std::span(of_sheet).first(of_jaws), of.sheet);
+      if (block_.stiffness_n_per_m < of.grip.block().stiffness_n_per_m) block_ = of.grip.block();
+      if (hold_.stiffness_n_per_m < of.grip.hold().stiffness_n_per_m) hold_ = of.grip.hold();
+    }
+    if (!of.sheet.torn().empty()) {
+      changed_.push_back({static_cast<std::int32_t>(s), {of.sheet.torn().begin(), of.sheet.torn().end()}});
+      ++tears_;
+    }
+    // The organ's part: what a hinge pulls, what lies on it presses, with the stiffness of either.
+    for (const SheetAnchor& anchor : of.sheet.anchors()) {
+      const auto hinge =
+          std::find_if(of.hinge.begin(), of.hinge.end(), [&](const Hinge& h) { return h.node == anchor.node; });
+      if (hinge == of.hinge.end()) continue;
+      const NodeShares place = shares_at(organ, hinge->vertex);
+      const Vec3 way = organ.solid().options().step_s * anchor.velocity;
+      for (int axis = 0; axis < 3; ++axis)
+        springs.push_back({place, Vec3::Unit(axis), anchor.stiffness_n_per_m,
+                           -anchor.force[axis] / anchor.stiffness_n_per_m - way[axis], false, 0});
+    }
+    for (std::size_t i = 0; i < of.on_organ.size(); ++i) {
+      const SheetSpring& spring = of_sheet[of.lying + i];
+      if (spring.force_n < kLeastPress) continue;
+      springs.push_back({shares_at(organ, of.beneath[static_cast<std::size_t>(of.on_organ[i])]), -spring.direction,
+                         spring.stiffness_n_per_m, spring.force_n / spring.stiffness_n_per_m, true, 0});
+    }
+  }
+  // What is beside jaws that have the sheet is no contact, and comes back only once it is away from them.
+  std::int32_t first = 0;
+  for (const Sheet& of : sheets_) {
+    const auto count = static_cast<std::int32_t>(of.sheet.triangles().size());
+    const bool taken = of.grip.state() != GripState::kEmpty || open_, cuts = tool.kind == InstrumentKind::kScissors;
+    std::vector<bool> between(static_cast<std::size_t>(count), false);
+    if (sound)
+      for (const std::int32_t t :
+           triangles_between(of.sheet, stylus.X_TI, cuts ? options_.scissors.blade_m : options_.grip.pad_length_m,
+                             cuts ? options_.scissors.width_m : options_.grip.pad_width_m, stylus.jaw_opening_m,
+                             options_.near_jaws_m))
+        between[static_cast<std::size_t>(t)] = taken || between_[static_cast<std::size_t>(first + t)];
+    std::copy(between.begin(), between.end(), between_.begin() + first);
+    first += count;
+  }
+  follow();
+}
+
+void SheetSystem::use_scissors(const StylusState& stylus) {
+  const ScissorsOptions& o = options_.scissors;
+  const Pose& X_TI = stylus.X_TI;
+  bool between = false;
+  for (const Sheet& of : sheets_)
+    between = between || !triangles_between(of.sheet, X_TI, o.blade_m, o.width_m,
+                                            std::max(stylus.jaw_opening_m, of.setup.thickness_m), of.edge_m / 2)
+                              .empty();
+  if (!between) open_ = false;
+  if (between && stylus.jaw_opening_m > kOpenBlades) open_ = true;
+  if (!open_) return;
+  double resist = 0;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    const Sheet& of = sheets_[s];
+    // The energy of the whole cut over the way of the blades.
+    resist += of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * o.blade_m / (2 * kOpenBlades);
+    if (stylus.jaw_opening_m >= o.shut_opening_m) continue;
+    part(s, of.sheet.chain({X_TI * Vec3(0, 0, -o.blade_m), X_TI.p, kCutReach * of.edge_m}));
+  }
+  if (stylus.jaw_opening_m >= o.shut_opening_m)
+    block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
+  else
+    open_ = false;
+}
+
+/// A live hook on a sheet cuts along its way.
+void SheetSystem::burn(const StylusState& stylus, const SheetContacts& given) {
+  const auto count = static_cast<std::int32_t>(contact_.triangles.size());
+  bool touches = false;
+  for (std::int32_t i = 0; given.first_triangle >= 0 && i < given.contacts.count; ++i) {
+    const SolvedContact& contact = given.contacts.at[static_cast<std::size_t>(i)];
+    const std::int32_t triangle = contact.place.triangle - given.first_triangle;
+    touches = touches ||
+              (triangle >= 0 && triangle < count && contact.force_T.dot(contact.normal_T) > options_.least_force_n);
+  }
+  if (!touches) return;
+  if (!burns_) burnt_T_ = stylus.X_TI.p;
+  burns_ = true;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    const double edge = sheets_[s].edge_m;
+    if ((stylus.X_TI.p - burnt_T_).norm() < edge) continue;
+    part(s, sheets_[s].sheet.chain({burnt_T_, stylus.X_TI.p, kBurnReach * edge}));
+    burnt_T_ = stylus.X_TI.p;
+  }
+}
+
+void SheetSystem::part(std::size_t sheet, std::vector<SheetEdge> edges) {
+  if (edges.empty() || sheets_[sheet].sheet.part(edges) <= 0) return;
+  changed_.push_back({static_cast<std::int32_t>(sheet), std::move(edges)});
+  closed_ = true;
+  ++cuts_;
+}
+
+void SheetSystem::follow() {
+  grown_ = false;
+  for (Sheet& of : sheets_) {
+    const std::size_t drawn = of.setup.drawn_T.vertices.size(), known = of.beneath.size();
+    const auto copied = of.sheet.copied().subspan(known - drawn);
+    if (copied.empty()) continue;
+    grown_ = true;
+    for (const std::int32_t node : copied)
+      of.beneath.push_back(std::int32_t(of.beneath[static_cast<std::size_t>(node)]));
+    of.seen.part(of.sheet.triangles(), copied);
+  }
+  contact_.vertices.clear();
+  before_.clear();
+  seen_.clear();
+  std::size_t triangle = 0;
+  for (const Sheet& of : sheets_) {
+    const auto first = static_cast<std::int32_t>(contact_.vertices.size());
+    const auto at = of.sheet.position(), was = of.sheet.before();
+    contact_.vertices.insert(contact_.vertices.end(), at.begin(), at.end());
+    before_.insert(before_.end(), was.begin(), was.end());
+    for (const auto& [a, b, c] : of.sheet.triangles())
+      contact_.triangles[triangle++] = {first + a, first + b, first + c};
+    seen_.push_back(of.seen.at(at));
+  }
+}
+
+ContactMaterial SheetSystem::material(std::size_t sheet) const {
+  ContactMaterial out;
+  out.stiffness_n_per_m = options_.touch_n_per_m;
+  out.damping_s_per_m = options_.damping_s_per_m;
+  out.mu_static = sheets_[sheet].setup.material.mu_static;
+  out.mu_dynamic = sheets_[sheet].setup.material.mu_dynamic;
+  return out;
+}
+
+GripState SheetSystem::grip() const {
+  GripState best = GripState::kEmpty;
+  for (const Sheet& of : sheets_) best = std::max(best, of.grip.state());
+  return best;
+}
+
+double SheetSystem::slipped_m() const {
+  double most = 0;
+  for (const Sheet& of : sheets_) most = std::max(most, of.grip.slipped_m());
+  return most;
+}
+
+void SheetSystem::add_nodes(std::vector<NodePlace>& nodes_T) const {
+  for (const Vec3& vertex : contact_.vertices) nodes_T.push_back(vertex.cast<float>());
+}
+
+}  // namespace trocar
