@@ -185,7 +185,6 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
                        const SoftOrgan& organ, std::vector<SoftSpring>& springs) {
   const StylusState& stylus = newest.stylus;
   changed_.clear();
-  closed_ = false;
   block_ = {};
   hold_ = {};
   if (organ.topology() != organ_topology_) know(organ);
@@ -308,7 +307,6 @@ void SheetSystem::burn(const StylusState& stylus, const SheetContacts& given) {
 void SheetSystem::part(std::size_t sheet, std::vector<SheetEdge> edges) {
   if (edges.empty() || sheets_[sheet].sheet.part(edges) <= 0) return;
   changed_.push_back({static_cast<std::int32_t>(sheet), std::move(edges)});
-  closed_ = true;
   ++cuts_;
 }
 

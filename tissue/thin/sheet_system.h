@@ -71,7 +71,6 @@ class SheetSystem {
   std::span<const SurfacePtr> seen() const { return seen_; }         ///< for pictures, one a sheet
   void add_nodes(std::vector<NodePlace>& nodes_T) const;             ///< of all, for TissueShape
   std::span<const SheetChange> changed() const { return changed_; }  ///< in the last step
-  bool closed() const { return closed_; }                            ///< scissors cut one in the last step
   std::int32_t cuts() const { return cuts_; }
   std::int32_t tears() const { return tears_; }
 
@@ -88,8 +87,8 @@ class SheetSystem {
     double edge_m = 0;  ///< mean, at rest
     std::vector<Hinge> hinge = {};
     std::vector<std::int32_t> beneath = {};  ///< of each node: the organ's vertex that is nearest
-    std::size_t first_spring = 0, lying = 0;
-    std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from `lying` on
+    std::size_t lying = 0;  ///< first spring of the last step that is of the organ beneath
+    std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from there on
   };
   void know(const SoftOrgan& organ);
   NodeShares shares_at(const SoftOrgan& organ, std::int32_t vertex) const;
@@ -109,7 +108,7 @@ class SheetSystem {
   std::vector<Vec3> before_;
   std::vector<std::int32_t> sheet_of_triangle_;
   std::vector<bool> between_;
-  bool grown_ = false, closed_ = false, open_ = false, burns_ = false;
+  bool grown_ = false, open_ = false, burns_ = false;
   Vec3 burnt_T_ = Vec3::Zero();  ///< how far the hook has cut
   GripBlock block_;
   GripHold hold_;

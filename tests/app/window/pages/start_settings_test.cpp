@@ -26,7 +26,7 @@ class PageTest : public testing_support::LoopBench {
   /// Into its field, after the guest's button.
   void type_code(const std::string& code) {
     for (int i = 0; i < 2; ++i) frame();
-    tab(6);
+    tab(7);
     for (int i = 0; i < 2; ++i) frame();
     frame(typed(code));
     frame();
