@@ -300,7 +300,7 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
       wanted = share() < 0.5 ? 0 : 0.02 * share();
       pedal = share() < 0.4;
       if (share() < 0.02) tip = to;  // a jump
-      if (share() < 0.1) theatre.take(share() < 0.5 ? 0 : int(6 * share()));
+      if (share() < 0.1) theatre.take(share() < 0.6 ? 0 : int(6 * share()));
       turned += share() < 0.3 ? 3 * (share() - 0.5) : 0;
     }
     tip += 0.1 * (to - tip);
