@@ -86,8 +86,8 @@ class SheetSystem {
     SheetGrip grip;
     double edge_m = 0;  ///< mean, at rest
     std::vector<Hinge> hinge = {};
-    std::vector<std::int32_t> beneath = {};  ///< of each node: the organ's vertex that is nearest
-    std::size_t lying = 0;  ///< first spring of the last step that is of the organ beneath
+    std::vector<std::int32_t> beneath = {};   ///< of each node: the organ's vertex that is nearest
+    std::size_t lying = 0;                    ///< first spring of the last step that is of the organ beneath
     std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from there on
   };
   void know(const SoftOrgan& organ);
