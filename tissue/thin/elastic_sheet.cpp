@@ -51,6 +51,21 @@ double unwound(double turn, double before) {
   return turn - 2 * std::numbers::pi * std::round((turn - before) / (2 * std::numbers::pi));
 }
 
+Eigen::Matrix2d green(const Eigen::Matrix<double, 3, 2>& F) {
+  return 0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity());
+}
+
+/// The law of stretch, N/m.
+struct Plane {
+  explicit Plane(const SheetOptions& o)
+      : shear(o.young_pa * o.thickness_m / (1 + o.poisson)),
+        bulk(o.young_pa * o.thickness_m * o.poisson / (1 - o.poisson * o.poisson)) {}
+  Eigen::Matrix2d tension(const Eigen::Matrix2d& strain) const {
+    return shear * strain + bulk * strain.trace() * Eigen::Matrix2d::Identity();
+  }
+  double shear, bulk;
+};
+
 Eigen::Matrix2d pulling_part(const Eigen::Matrix2d& tension) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(tension);
   return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
@@ -249,19 +264,22 @@ double ElasticSheet::stretch_of(const SheetSpring& spring, std::span<const Vec3>
   return spring.stretch_m + way;
 }
 
+Eigen::Matrix<double, 3, 2> ElasticSheet::gradient(std::size_t triangle, std::span<const Vec3> at) const {
+  const auto& corner = triangles_[triangle];
+  Eigen::Matrix<double, 3, 2> edges;
+  edges.col(0) = at[number(corner[1])] - at[number(corner[0])];
+  edges.col(1) = at[number(corner[2])] - at[number(corner[0])];
+  return edges * rest_[triangle].inverse;
+}
+
 /// @param pull forces of the stretched triangle on its corners. @param stiffness 3 x 3 blocks are added
 double ElasticSheet::stretch(std::size_t triangle, std::span<const Vec3> at, std::array<Vec3, 3>* pull,
                              Matrix* stiffness) const {
   const auto& corner = triangles_[triangle];
   const Rest& rest = rest_[triangle];
-  Eigen::Matrix<double, 3, 2> edges, F;
-  edges.col(0) = at[number(corner[1])] - at[number(corner[0])];
-  edges.col(1) = at[number(corner[2])] - at[number(corner[0])];
-  F = edges * rest.inverse;
-  const double nu = options_.poisson, modulus = options_.young_pa * options_.thickness_m;
-  const double shear = modulus / (1 + nu), bulk = modulus * nu / (1 - nu * nu);
-  const Eigen::Matrix2d strain = 0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity());
-  const Eigen::Matrix2d tension = shear * strain + bulk * strain.trace() * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix<double, 3, 2> F = gradient(triangle, at);
+  const Plane plane(options_);
+  const Eigen::Matrix2d strain = green(F), tension = plane.tension(strain);
   if (pull != nullptr) {
     const Eigen::Matrix<double, 3, 2> H = -rest.area_m2 * F * tension * rest.inverse.transpose();
     *pull = {Vec3(-H.col(0) - H.col(1)), Vec3(H.col(0)), Vec3(H.col(1))};
@@ -275,8 +293,9 @@ double ElasticSheet::stretch(std::size_t triangle, std::span<const Vec3> at, std
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b) {
         const Vec3 fa = F * g[a], fb = F * g[b];
-        const Mat3 block = rest.area_m2 * (0.5 * shear * (g[a].dot(g[b]) * FF + fb * fa.transpose()) +
-                                           bulk * fa * fb.transpose() + g[a].dot(pulled * g[b]) * Mat3::Identity());
+        const Mat3 block =
+            rest.area_m2 * (0.5 * plane.shear * (g[a].dot(g[b]) * FF + fb * fa.transpose()) +
+                            plane.bulk * fa * fb.transpose() + g[a].dot(pulled * g[b]) * Mat3::Identity());
         add_block(*stiffness, corner[a], corner[b], block);
       }
   }
@@ -430,15 +449,8 @@ int ElasticSheet::settle(std::span<SheetSpring> springs, double still_m, int mos
 }
 
 double ElasticSheet::tension_n_per_m(std::int32_t triangle) const {
-  const auto& corner = triangles_[number(triangle)];
-  Eigen::Matrix<double, 3, 2> edges;
-  edges.col(0) = position_[number(corner[1])] - position_[number(corner[0])];
-  edges.col(1) = position_[number(corner[2])] - position_[number(corner[0])];
-  const Eigen::Matrix<double, 3, 2> F = edges * rest_[number(triangle)].inverse;
-  const double nu = options_.poisson, modulus = options_.young_pa * options_.thickness_m;
-  const Eigen::Matrix2d strain = 0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity());
-  const Eigen::Matrix2d tension =
-      modulus / (1 + nu) * strain + modulus * nu / (1 - nu * nu) * strain.trace() * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix<double, 3, 2> F = gradient(number(triangle), position_);
+  const Eigen::Matrix2d tension = Plane(options_).tension(green(F));
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(tension, Eigen::EigenvaluesOnly).eigenvalues()[1];
 }
 

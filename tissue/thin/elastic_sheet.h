@@ -145,6 +145,8 @@ class ElasticSheet {
   void lay_out_matrix();
   /// Adds to the lower half; what lies above is left out.
   void add_block(Matrix& to, std::int32_t row, std::int32_t column, const Mat3& block) const;
+  /// dx / dX of a triangle.
+  Eigen::Matrix<double, 3, 2> gradient(std::size_t triangle, std::span<const Vec3> at) const;
   double stretch(std::size_t triangle, std::span<const Vec3> at, std::array<Vec3, 3>* pull, Matrix* stiffness) const;
   double objective(std::span<const SheetSpring> springs, std::span<const Vec3> at, Eigen::VectorXd* downhill,
                    Matrix* stiffness) const;

@@ -52,7 +52,6 @@ class SheetSystem {
             const SoftOrgan& organ, std::vector<SoftSpring>& springs);
 
   std::size_t size() const { return sheets_.size(); }
-  const ElasticSheet& sheet(std::size_t i) const { return sheets_[i].sheet; }
 
   /// What the loop touches, with the sheet of each triangle.
   const TriangleSurface& contact() const { return contact_; }
