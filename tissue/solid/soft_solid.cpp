@@ -758,4 +758,17 @@ double SoftSolid::compliance(const NodeShares& place, const Vec3& direction, dou
   return direction.cast<float>().dot(at(place, u));
 }
 
+double SoftSolid::held_stiffness(const NodeShares& place) const {
+  double gives = 0;
+  for (std::size_t i = 0; i < place.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(place.node[i]);
+    const double share = static_cast<double>(place.share[i]);
+    if (share == 0) continue;
+    const double resists = static_cast<double>(stiffness_diagonal_[node] + support_[node]);
+    if (!(resists > 0)) return 0;
+    gives += share * share / resists;
+  }
+  return gives > 0 ? 1 / gives : 0;
+}
+
 }  // namespace trocar

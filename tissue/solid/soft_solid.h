@@ -134,6 +134,9 @@ class SoftSolid {
   /// neighbourhood, never softer than the truth. @param inertia as the step sees it, else static
   /// @return m/N along the direction
   double compliance(const NodeShares& place, const Vec3& direction, double radius_m, bool inertia) const;
+  /// About what a place resists with while all other nodes stand, N/m: from the diagonal, so never softer than the
+  /// truth. 0 where no cell is.
+  double held_stiffness(const NodeShares& place) const;
 
  private:
   struct Group;    ///< eight cells, as the matrix knows them

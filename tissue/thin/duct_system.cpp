@@ -140,7 +140,7 @@ void DuctSystem::add_loads(const Duct& duct, std::vector<SoftSpring>& springs) c
     if (duct.vertex[end] < 0) continue;
     const Vec3& rest = duct.rest_load[end];
     if (duct.tube.rod.anchored(kEnds[end])) {
-      for (SoftSpring spring : anchor_springs(duct.tube.rod, kEnds[end], duct.place[end])) {
+      for (SoftSpring spring : load_springs(anchor_load(duct.tube.rod, kEnds[end]), duct.place[end])) {
         spring.stretch_m += spring.direction.dot(rest) / spring.stiffness_n_per_m;
         springs.push_back(std::move(spring));
       }

@@ -597,6 +597,23 @@ double ElasticSheet::part(std::span<const SheetEdge> edges) {
   return length;
 }
 
+std::vector<Mat3> ElasticSheet::anchor_stiffness() const {
+  std::vector<Mat3> out;
+  for (const SheetAnchor& anchor : anchors_) out.push_back(anchor.stiffness_n_per_m * Mat3::Identity());
+  if (!factored_ || anchors_.empty()) return out;
+  const auto columns = static_cast<Eigen::Index>(3 * anchors_.size());
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * position_.size()), columns);
+  for (std::size_t a = 0; a < anchors_.size(); ++a)
+    for (Eigen::Index c = 0; c < 3; ++c) unit(3 * anchors_[a].node + c, static_cast<Eigen::Index>(3 * a) + c) = 1;
+  const Eigen::MatrixXd moved = solver_->solve(unit);
+  for (std::size_t a = 0; a < anchors_.size(); ++a) {
+    const double k = anchors_[a].stiffness_n_per_m;
+    const Mat3 gives = moved.block<3, 3>(3 * anchors_[a].node, static_cast<Eigen::Index>(3 * a));
+    out[a] -= k * k / 2 * (gives + gives.transpose());
+  }
+  return out;
+}
+
 double ElasticSheet::compliance(const MaterialPoint& place, const Vec3& direction) const {
   if (!factored_) return 0;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(matrix_.rows());

@@ -95,6 +95,9 @@ class ElasticSheet {
   void anchor(const SheetAnchor& to);
   void let_go(std::int32_t node);
   std::span<const SheetAnchor> anchors() const { return anchors_; }
+  /// Of each anchor: how the sheet's force on it grows as it gives way within a step, N/m. Before the first step, and
+  /// after a tear, that of the anchor itself.
+  std::vector<Mat3> anchor_stiffness() const;
 
   /// One step. @param springs their force_n is filled in.
   void step(std::span<SheetSpring> springs = {});

@@ -22,11 +22,8 @@ RodAnchor anchor_on(const SoftSolid& solid, const NodeShares& place, double stif
   return anchor;
 }
 
-std::array<SoftSpring, 3> anchor_springs(const ElasticRod& rod, RodEnd end, const NodeShares& place) {
-  const Vec3 force = rod.anchor_load(end).force;
-  // The force is that at the place where the rod expected the anchor after its step: from there on the stiffness acts.
-  const Vec3 expected = rod.anchor_way(end);
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(rod.anchor_stiffness(end));
+std::array<SoftSpring, 3> load_springs(const AnchorLoad& load, const NodeShares& place) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(load.stiffness);
   std::array<SoftSpring, 3> springs;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -34,7 +31,8 @@ std::array<SoftSpring, 3> anchor_springs(const ElasticRod& rod, RodEnd end, cons
     spring.place = place;
     spring.direction = axes.eigenvectors().col(axis);
     spring.stiffness_n_per_m = std::max(axes.eigenvalues()[axis], kLeastAnchorStiffness);
-    spring.stretch_m = -spring.direction.dot(force) / spring.stiffness_n_per_m - spring.direction.dot(expected);
+    spring.stretch_m =
+        -spring.direction.dot(load.force) / spring.stiffness_n_per_m - spring.direction.dot(load.expected_way);
   }
   return springs;
 }

@@ -14,9 +14,10 @@ constexpr double kOpenBlades = 0.003;  // m from which on a sheet can come betwe
 constexpr double kCutReach = 0.9;      // of an edge: how far from the blades' line the cut runs
 constexpr double kResistBlock = 500;   // N/m of what blades cut, about its force
 constexpr double kBurnReach = 0.8;     // of an edge, round the hook's tip
-constexpr double kLeastPress = 1e-5;   // N of a node on the organ that the organ is told of
+constexpr double kMayTouch = 0.002;    // m over the organ from which a node may come to lie on it within a step
 constexpr double kNoSheetDrag = 1e-6;  // N
 constexpr int kSearch = 12;            // vertices of the organ that a node may pass in a step
+constexpr double kNearer = 0.64;       // of the squared distance: by so much another vertex must be nearer
 
 bool carries(const SolvedContact& contact) {
   return contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() && contact.normal_T.allFinite();
@@ -144,7 +145,8 @@ void SheetSystem::touch(std::size_t sheet, const SheetContacts& given, std::vect
   }
 }
 
-/// Springs of the nodes that are in the organ, or within half a thickness of it.
+/// Springs of the nodes that are in the organ, within half a thickness of it, or may come there within the step: one
+/// that is known only once it is in falls into the organ by g h^2 first, and is thrown out again.
 void SheetSystem::lie(Sheet& of, const SoftOrgan& organ, std::vector<SheetSpring>& springs) {
   of.lying = springs.size();
   of.on_organ.clear();
@@ -163,6 +165,7 @@ void SheetSystem::lie(Sheet& of, const SoftOrgan& organ, std::vector<SheetSpring
     double least = (vertex_of(now, nearest) - p).squaredNorm();
     for (int step = 0; step < kSearch; ++step) {
       std::int32_t better = -1;
+      least *= kNearer;  // what another one must beat
       for (const std::int32_t t : fan_[static_cast<std::size_t>(nearest)])
         for (const std::int32_t v : now.triangles[static_cast<std::size_t>(t)])
           if (const double there = (vertex_of(now, v) - p).squaredNorm(); there < least) least = there, better = v;
@@ -171,12 +174,15 @@ void SheetSystem::lie(Sheet& of, const SoftOrgan& organ, std::vector<SheetSpring
     }
     const Vec3 normal = normal_at(organ, nearest);
     const double deep = of.sheet.options().thickness_m / 2 - normal.dot(p - vertex_of(now, nearest));
-    if (deep <= 0 || deep > options_.lying_reach_m) continue;
-    springs.push_back({.place = place[n],
-                       .direction = -normal,
-                       .stiffness_n_per_m = options_.lying_n_per_m,
-                       .stretch_m = deep,
-                       .pushes_only = true});
+    if (deep < -kMayTouch || deep > options_.lying_reach_m) continue;
+    // No stiffer than what it lies on: a crumb that cuts have left would be thrown about between two steps.
+    const double beneath = organ.solid().held_stiffness(shares_at(organ, nearest));
+    springs.push_back(
+        {.place = place[n],
+         .direction = -normal,
+         .stiffness_n_per_m = beneath > 0 ? std::min(options_.lying_n_per_m, beneath) : options_.lying_n_per_m,
+         .stretch_m = deep,
+         .pushes_only = true});
     of.on_organ.push_back(static_cast<std::int32_t>(n));
   }
 }
@@ -223,21 +229,22 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
       ++tears_;
     }
     // The organ's part: what a hinge pulls, what lies on it presses, with the stiffness of either.
-    for (const SheetAnchor& anchor : of.sheet.anchors()) {
+    const std::vector<Mat3> stiffness = of.sheet.anchor_stiffness();
+    for (std::size_t a = 0; a < stiffness.size(); ++a) {
+      const SheetAnchor& anchor = of.sheet.anchors()[a];
       const auto hinge =
           std::find_if(of.hinge.begin(), of.hinge.end(), [&](const Hinge& h) { return h.node == anchor.node; });
       if (hinge == of.hinge.end()) continue;
-      const NodeShares place = shares_at(organ, hinge->vertex);
       const Vec3 way = organ.solid().options().step_s * anchor.velocity;
-      for (int axis = 0; axis < 3; ++axis)
-        springs.push_back({place, Vec3::Unit(axis), anchor.stiffness_n_per_m,
-                           -anchor.force[axis] / anchor.stiffness_n_per_m - way[axis], false, 0});
+      for (const SoftSpring& spring : load_springs({anchor.force, way, stiffness[a]}, shares_at(organ, hinge->vertex)))
+        springs.push_back(spring);
     }
     for (std::size_t i = 0; i < of.on_organ.size(); ++i) {
       const SheetSpring& spring = of_sheet[of.lying + i];
-      if (spring.force_n < kLeastPress) continue;
-      springs.push_back({shares_at(organ, of.beneath[static_cast<std::size_t>(of.on_organ[i])]), -spring.direction,
-                         spring.stiffness_n_per_m, spring.force_n / spring.stiffness_n_per_m, true, 0});
+      const auto node = static_cast<std::size_t>(of.on_organ[i]);
+      const double now = spring.stretch_m + spring.direction.dot(of.sheet.position()[node] - of.sheet.before()[node]);
+      springs.push_back(
+          {shares_at(organ, of.beneath[node]), -spring.direction, spring.stiffness_n_per_m, now, true, 0});
     }
   }
   // What is beside jaws that have the sheet is no contact, and comes back only once it is away from them.

@@ -31,7 +31,7 @@ struct Pulled {
     rod.anchor(RodEnd::kStart, anchor_on(solid, place, 2000));
     rod.anchor(RodEnd::kFinish, {.position = top + pulled});
     rod.step();
-    auto springs = anchor_springs(rod, RodEnd::kStart, place);
+    auto springs = load_springs(anchor_load(rod, RodEnd::kStart), place);
     if (as_fixed_force)
       for (SoftSpring& spring : springs) {
         const double force =
@@ -84,7 +84,7 @@ TEST(RodOnSolid, WithItsForceAloneItWouldShakeItselfLoose) {
     force_alone.step(Vec3(0, 0, 5e-5 * std::min(i, 100)), true);
   }
   EXPECT_TRUE(with_stiffness.rod.anchored(RodEnd::kStart));
-  EXPECT_FALSE(force_alone.rod.anchored(RodEnd::kStart)) << "what anchor_springs() is for";
+  EXPECT_FALSE(force_alone.rod.anchored(RodEnd::kStart)) << "what load_springs() is for";
 }
 
 }  // namespace
