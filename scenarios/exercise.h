@@ -6,6 +6,7 @@
 // uses _mm and _deg keys. Frame T.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -134,10 +135,18 @@ struct SuturePlan {
   double thread_m = 0.15;
 };
 
+/// An earlier version of the exercise's file, whose passes count as this one's if they are from before a day: the old
+/// file could be run again at any time.
+struct FormerRubric {
+  std::string sha256;
+  std::string until;  ///< "2026-11-26", UTC
+};
+
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
-  std::string id, title, version;               ///< "surface-touch"
-  std::string number;                           ///< "E02"
+  std::string id, title, version;  ///< "surface-touch"
+  std::string number;              ///< "E02"
+  std::vector<FormerRubric> former_rubrics = {};
   std::string goal;                             ///< one line for briefing and report
   double time_limit_s = 0;                      ///< unless the level names its own
   double start_sphere_m = 0, start_hold_s = 0;  ///< radius; time in it: READY -> ARMED -> RUN
@@ -147,6 +156,7 @@ struct Exercise {
   TargetLayout layout;
   PenRules pens;                      ///< reach
   double hold_s = 0;                  ///< time in band, or in pose, that completes a target
+  double counted_hold_s = 0;          ///< touch, grasp: of the time in one object's band so much counts
   ContactMaterial surface;            ///< touch: of the organ
   std::string tissue = kStillTissue;  ///< touch: one of kTissueWords, unless the run says otherwise
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
@@ -163,6 +173,15 @@ struct Exercise {
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;
   std::string text;  ///< the file's bytes: embedded in recordings, hashed as the rubric's version
+
+  /// Whether an attempt graded by that rubric is one at this exercise. One by an edited file is not, whatever id it
+  /// bears. @param started_utc ISO 8601
+  bool names(const std::string& rubric_sha256, const std::string& started_utc) const {
+    return rubric_sha256 == rubric.sha256 ||
+           std::any_of(former_rubrics.begin(), former_rubrics.end(), [&](const FormerRubric& former) {
+             return former.sha256 == rubric_sha256 && started_utc < former.until;
+           });
+  }
 };
 
 }  // namespace trocar

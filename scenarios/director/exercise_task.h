@@ -29,6 +29,9 @@ struct TaskInput {
   const TissueFrame* tissue = nullptr;  ///< objects of the world; nullptr when it has none
   double dt_s = 0;
   bool too_hard = false;  ///< contact above the hard limit, not yet eased off
+
+  /// Clutch or port make the instrument stand still, whatever the hand does: nothing is held in that time.
+  bool frozen() const { return stylus.clutched || stylus.port_held; }
 };
 
 class ExerciseTask {

@@ -9,7 +9,7 @@
 
 namespace trocar {
 
-/// EXCESS_FORCE, CRITICAL_FORCE, TOOL_COLLISION, DEVICE_LIMIT, CLUTCH, PORT_HOLD.
+/// EXCESS_FORCE, CRITICAL_FORCE, TOOL_COLLISION, DEVICE_LIMIT, CLUTCH, PORT_HOLD, INSTRUMENT_FREE.
 class SafetyWatch {
  public:
   explicit SafetyWatch(const Exercise& exercise);
@@ -21,7 +21,7 @@ class SafetyWatch {
  private:
   ThresholdMonitor excess_, critical_, collision_, limit_;
   int excess_count_ = 0;
-  double peak_n_ = 0;
+  double peak_n_ = 0, frozen_s_ = 0;
   bool clutched_ = false, held_ = false;
 };
 

@@ -49,7 +49,7 @@ AttemptStatus status_from(const std::string& name) {
 void require_finite(const ScoringContext& context) {
   bool finite = context.approach_T.allFinite();
   for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
-  finite = finite && std::isfinite(context.room_share.value_or(0));
+  finite = finite && std::isfinite(context.room_share.value_or(0)) && std::isfinite(context.counted_hold_s);
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
   for (const ObjectBand& band : context.object_bands)
     finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
@@ -85,6 +85,7 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.critical_force_n = exercise.critical_force_n;
   context.grip_low_n = exercise.grip.low_n;
   context.grip_high_n = exercise.grip.high_n;
+  context.counted_hold_s = exercise.counted_hold_s;
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
   kind_of(exercise).account(board, events, context);
@@ -103,6 +104,7 @@ std::string scoring_context_json(const ScoringContext& context) {
   for (const ObjectBand& band : context.object_bands) json["object_bands"].push_back({band.low_n, band.high_n});
   if (!context.grip_windows.empty()) json["grip_windows"] = Json::array();
   for (const auto& [low, high] : context.grip_windows) json["grip_windows"].push_back({low, high});
+  json["counted_hold_s"] = context.counted_hold_s;
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
   if (context.room_share) json["room_share"] = *context.room_share;
@@ -121,6 +123,7 @@ ScoringContext parse_scoring_context(const std::string& text, const std::string&
       context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
     for (const Json& window : json.value("grip_windows", Json::array()))
       context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
+    context.counted_hold_s = json.value("counted_hold_s", 0.0);
     context.objects_total = json.at("objects_total").get<int>();
     context.objects_done = json.at("objects_done").get<int>();
     if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <cstdlib>
 
 #include "haptics/digest/digest.h"
@@ -88,6 +89,24 @@ Breathing read_breathing(StrictTable& document) {
   return breathing;
 }
 
+std::vector<FormerRubric> read_former_rubrics(StrictTable& document) {
+  document.allow("former_rubrics");
+  if (!document.has("former_rubrics")) return {};
+  std::vector<FormerRubric> out;
+  for (StrictTable& table : document.tables("former_rubrics")) {
+    FormerRubric former{table.text("sha256"), table.text("until")};
+    if (former.sha256.size() != 64 || former.sha256.find_first_not_of("0123456789abcdef") != std::string::npos)
+      table.fail("sha256", "'sha256' must be 64 small hexadecimal digits");
+    int year = 0, month = 0, day = 0, read = 0;
+    if (former.until.size() != 10 ||
+        std::sscanf(former.until.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &read) != 3 || read != 10)
+      table.fail("until", "'until' must be a date, \"2026-11-26\"");
+    table.finish();
+    out.push_back(former);
+  }
+  return out;
+}
+
 }  // namespace
 
 Exercise parse_exercise(const std::string& text, const std::filesystem::path& file) {
@@ -98,6 +117,7 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.id = document.text("id");
   exercise.number = document.text("number");
   exercise.version = document.text("version");
+  exercise.former_rubrics = read_former_rubrics(document);
   exercise.title = document.text("title");
   exercise.goal = document.text("goal");
   exercise.kind = read_kind(document);

@@ -199,20 +199,24 @@ std::string StrictTable::choice(const std::string& key, const std::vector<std::s
   return word;
 }
 
-std::vector<std::string> StrictTable::choices(const std::string& key, const std::vector<std::string>& allowed,
-                                              std::size_t most) {
+std::vector<std::string> StrictTable::words(const std::string& key, std::size_t most,
+                                            const std::function<std::string(const std::string&)>& refusal) {
   const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
   const toml::array* array = value.as_array();
   if (!array || array->empty() || array->size() > most)
     fail(key, "'" + key + "' must be an array of 1 to " + std::to_string(most) + " names");
-  std::vector<std::string> words;
+  std::vector<std::string> out;
   for (const toml::node& element : *array) {
     if (!element.is_string()) throw error_at(node_->file, element.source(), "'" + key + "' must hold names in quotes");
-    words.push_back(*element.value<std::string>());
-    if (const std::string refusal = choice_refusal(key, words.back(), allowed); !refusal.empty())
-      throw error_at(node_->file, element.source(), refusal);
+    out.push_back(*element.value<std::string>());
+    if (const std::string why = refusal(out.back()); !why.empty()) throw error_at(node_->file, element.source(), why);
   }
-  return words;
+  return out;
+}
+
+std::vector<std::string> StrictTable::choices(const std::string& key, const std::vector<std::string>& allowed,
+                                              std::size_t most) {
+  return words(key, most, [&](const std::string& word) { return choice_refusal(key, word, allowed); });
 }
 
 std::string StrictTable::choice_or(const std::string& key, const std::vector<std::string>& allowed,

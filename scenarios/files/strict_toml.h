@@ -4,6 +4,7 @@
 // Numbers must be finite. The parser itself stays behind the .cpp file. Thread: loading only.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,6 +43,9 @@ class StrictTable {
   std::string choice_or(const std::string& key, const std::vector<std::string>& allowed, const std::string& fallback);
   /// Array of one to `most` of the allowed words.
   std::vector<std::string> choices(const std::string& key, const std::vector<std::string>& allowed, std::size_t most);
+  /// Array of one to `most` texts. @param refusal why one is none; "" where it is
+  std::vector<std::string> words(const std::string& key, std::size_t most,
+                                 const std::function<std::string(const std::string&)>& refusal);
   /// Array of three numbers, each in [low, high].
   Vec3 vector(const std::string& key, double low, double high);
   /// Array of two numbers, each in [low, high].

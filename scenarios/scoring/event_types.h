@@ -1,5 +1,4 @@
-// The types of events that are graded, that every kind of exercise has, or that the desk draws; docs/scoring.md says
-// when each happens and what its value is. What a kind alone logs and reads stands in its room (scenarios/kinds).
+// The types of events; docs/scoring.md says when each happens and what its value is.
 //
 // Records hold the name: they may come from a program that knows more types than this one.
 #pragma once
@@ -23,7 +22,8 @@ inline constexpr EventType kStart{"START"}, kDone{"DONE"}, kTimeout{"TIMEOUT"}, 
     kDeviceFault{"DEVICE_FAULT"};
 // Its safety watch
 inline constexpr EventType kExcessForce{"EXCESS_FORCE"}, kCriticalForce{"CRITICAL_FORCE"},
-    kToolCollision{"TOOL_COLLISION"}, kDeviceLimit{"DEVICE_LIMIT"}, kClutch{"CLUTCH"}, kPortHold{"PORT_HOLD"};
+    kToolCollision{"TOOL_COLLISION"}, kDeviceLimit{"DEVICE_LIMIT"}, kClutch{"CLUTCH"}, kPortHold{"PORT_HOLD"},
+    kInstrumentFree{"INSTRUMENT_FREE"};
 // Its watch on surgery, where tissue gives way
 inline constexpr EventType kCut{"CUT"}, kTear{"TEAR"}, kClip{"CLIP"}, kRefused{"REFUSED"}, kBleeding{"BLEEDING"},
     kBurn{"BURN"}, kNeedle{"NEEDLE"}, kPuncture{"PUNCTURE"}, kStitch{"STITCH"}, kThrow{"THROW"};
@@ -31,15 +31,26 @@ inline constexpr EventType kCut{"CUT"}, kTear{"TEAR"}, kClip{"CLIP"}, kRefused{"
 inline constexpr EventType kTargetLit{"TARGET_LIT"}, kTargetHeld{"TARGET_HELD"};
 // Touch
 inline constexpr EventType kTargetTouched{"TARGET_TOUCHED"}, kWrongPlace{"WRONG_PLACE"}, kGripTouched{"GRIP_TOUCHED"},
-    kGripExcess{"GRIP_EXCESS"}, kGripHeld{"GRIP_HELD"};
+    kGripExcess{"GRIP_EXCESS"}, kGripHeld{"GRIP_HELD"}, kGripOffered{"GRIP_OFFERED"};
 // Reach
 inline constexpr EventType kPositionError{"POSITION_ERROR"}, kAngleError{"ANGLE_ERROR"},
     kTargetTimeout{"TARGET_TIMEOUT"};
 // Grasp
 inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"},
-    kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"};
+    kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"}, kGrasped{"GRASPED"},
+    kWrongBlock{"WRONG_BLOCK"}, kRemoved{"REMOVED"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
+
+/// All of them.
+inline constexpr EventType kAll[] = {
+    kStart,         kDone,        kTimeout,       kDeadmanOpen,   kDeviceFault,    kExcessForce, kCriticalForce,
+    kToolCollision, kDeviceLimit, kClutch,        kPortHold,      kInstrumentFree, kCut,         kTear,
+    kClip,          kRefused,     kBleeding,      kBurn,          kNeedle,         kPuncture,    kStitch,
+    kThrow,         kTargetLit,   kTargetHeld,    kTargetTouched, kWrongPlace,     kGripTouched, kGripExcess,
+    kGripHeld,      kGripOffered, kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
+    kSetDown,       kSlip,        kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
+    kGrasped,       kWrongBlock,  kRemoved,       kMarked,        kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

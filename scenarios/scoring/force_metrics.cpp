@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "scenarios/scoring/band_time.h"
 #include "scenarios/scoring/metrics.h"
 #include "scenarios/scoring/trace_filter.h"
 
@@ -26,38 +27,40 @@ std::vector<double> weights(const Samples& samples) {
   return result;
 }
 
-struct Window {
-  double from = 0, to = 0;
-  ObjectBand band;
-};
-
 /// The time in which the force is judged: it opens when the force first reaches the band's lower edge after the
 /// first touch, or kRiseGrace after that touch, whichever is sooner, and closes when the hold is complete.
-template <typename Reading>
-Value in_band_share(const Samples& samples, const std::vector<Window>& windows, Reading reading) {
+/// @param take is given window, sample, the time that it stands for, and its reading.
+template <typename Reading, typename Take>
+void each_judged(const Samples& samples, const std::vector<BandWindow>& windows, Reading reading, Take take) {
   const std::vector<double> weight = weights(samples);
-  double inside = 0, total = 0;
-  for (const Window& window : windows) {
+  for (const BandWindow& window : windows) {
     bool open = false;
-    auto it = std::lower_bound(samples.begin(), samples.end(), window.from,
+    auto it = std::lower_bound(samples.begin(), samples.end(), window.from_s,
                                [](const TraceSample& sample, double t) { return sample.t_s < t; });
-    for (; it != samples.end() && it->t_s <= window.to; ++it) {
+    for (; it != samples.end() && it->t_s <= window.to_s; ++it) {
       const double value = reading(*it);
-      open = open || value >= window.band.low_n || it->t_s >= window.from + kRiseGrace;
-      if (!open) continue;
-      const double w = weight[static_cast<std::size_t>(it - samples.begin())];
-      total += w;
-      if (value >= window.band.low_n && value <= window.band.high_n) inside += w;
+      open = open || value >= window.band.low_n || it->t_s >= window.from_s + kRiseGrace;
+      if (open) take(window, *it, weight[static_cast<std::size_t>(it - samples.begin())], value);
     }
   }
+}
+
+/// All windows together.
+template <typename Reading>
+Value in_band_share(const Samples& samples, const std::vector<BandWindow>& windows, Reading reading) {
+  double inside = 0, total = 0;
+  each_judged(samples, windows, reading, [&](const BandWindow& window, const TraceSample&, double w, double value) {
+    total += w;
+    if (value >= window.band.low_n && value <= window.band.high_n) inside += w;
+  });
   return total > 0 ? Value(inside / total) : std::nullopt;
 }
 
 /// From the first `opening` event of each object to its `closing` event, or to the end. @param bands by object; the
 /// first stands for all that have none of their own.
-std::vector<Window> windows_between(const std::vector<Event>& events, EventType opening, EventType closing, double end,
-                                    const std::vector<ObjectBand>& bands) {
-  std::vector<Window> windows;
+std::vector<BandWindow> windows_between(const std::vector<Event>& events, EventType opening, EventType closing,
+                                        double end, const std::vector<ObjectBand>& bands) {
+  std::vector<BandWindow> windows;
   std::vector<std::int32_t> seen;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const Event& event = events[i];
@@ -66,8 +69,8 @@ std::vector<Window> windows_between(const std::vector<Event>& events, EventType 
     const auto closed = std::find_if(events.begin() + static_cast<std::ptrdiff_t>(i), events.end(),
                                      [&](const Event& e) { return e.type == closing && e.object == event.object; });
     const auto index = static_cast<std::size_t>(std::max(0, event.object));
-    windows.push_back(
-        {event.t_s, closed == events.end() ? end : closed->t_s, index < bands.size() ? bands[index] : bands.front()});
+    windows.push_back({event.object, event.t_s, closed == events.end() ? end : closed->t_s,
+                       index < bands.size() ? bands[index] : bands.front()});
   }
   return windows;
 }
@@ -205,12 +208,14 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
   add_rate_metric(trace, sink);
   std::vector<ObjectBand> bands = context.object_bands;
   if (bands.empty()) bands.push_back({context.band_low_n, context.band_high_n});
-  sink.push_back(
-      {"in_band_share",
-       in_band_share(trace.samples,
-                     windows_between(events, event_type::kTargetTouched, event_type::kTargetHeld, end, bands),
-                     force_of),
-       "1"});
+  const auto windows = windows_between(events, event_type::kTargetTouched, event_type::kTargetHeld, end, bands);
+  BandTimes of_objects{FrozenTimes(events, end)};
+  each_judged(trace.samples, windows, force_of,
+              [&](const BandWindow& window, const TraceSample& sample, double w, double value) {
+                of_objects.add(window, sample.t_s, w, value);
+              });
+  sink.push_back({"in_band_share", in_band_share(trace.samples, windows, force_of), "1"});
+  sink.push_back({"object_in_band_share", of_objects.mean_share(context.counted_hold_s), "1"});
   add_grip_metrics(trace.samples, events, context, sink);
   add_rendered_metrics(trace.samples, context, sink);
   add_honesty_metrics(trace.samples, sink);

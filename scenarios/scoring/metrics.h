@@ -4,6 +4,7 @@
 // is empty, never 0. Pure: same trace, events and context in, same bits out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +16,13 @@
 
 namespace trocar {
 
+/// What a better hand has of a metric, all else equal.
+enum class Direction : std::uint8_t { kLess, kMore, kNeither };
+
 struct MetricDefinition {
-  std::string_view name, unit, meaning;
+  std::string_view name, unit, meaning, formula;
+  Direction better = Direction::kNeither;
+  std::string_view evidence = "none: a design choice, not yet compared with people";
 };
 
 /// All metrics, in the order of the table.

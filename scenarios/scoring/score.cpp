@@ -46,6 +46,8 @@ std::string grade_name(double score, const Rubric& rubric) {
   return score >= rubric.pass_at ? "pass" : "below pass";
 }
 
+}  // namespace
+
 Grade void_grade(const std::string& reason) {
   Grade grade;
   grade.status = AttemptStatus::kVoid;
@@ -53,8 +55,6 @@ Grade void_grade(const std::string& reason) {
   grade.caps.push_back({.kind = CapKind::kVoid, .subject = reason});
   return grade;
 }
-
-}  // namespace
 
 double subscore_value(const SubscoreRule& rule, const std::optional<double>& metric) {
   if (!metric || !std::isfinite(*metric)) return 0;

@@ -22,4 +22,7 @@ double subscore_value(const SubscoreRule& rule, const std::optional<double>& met
 Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const Rubric& rubric,
                     const ScoringContext& context);
 
+/// Not to be graded: no number, and the reason among the caps.
+Grade void_grade(const std::string& reason);
+
 }  // namespace trocar

@@ -27,10 +27,11 @@ struct ScoringContext {
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
   double grip_low_n = 0, grip_high_n = 0;           ///< wanted grip force
   std::vector<std::array<double, 2>> grip_windows;  ///< wanted grip while carrying each block; empty: no blocks
-  double retract_height_m = 0;                      ///< of the ideal path between targets, along approach_T
-  Vec3 approach_T = Vec3::UnitZ();                  ///< direction in which the instrument withdraws
-  std::vector<Vec3> waypoints;                      ///< start, then the targets that were held, in lit order
-  std::optional<double> room_share;                 ///< of the region, where the device can give the soft limit
+  double counted_hold_s = 0;    ///< of the time in an object's band, as much counts; 0: recorded before it was known
+  double retract_height_m = 0;  ///< of the ideal path between targets, along approach_T
+  Vec3 approach_T = Vec3::UnitZ();   ///< direction in which the instrument withdraws
+  std::vector<Vec3> waypoints;       ///< start, then the targets that were held, in lit order
+  std::optional<double> room_share;  ///< of the region, where the device can give the soft limit
   int objects_total = 0, objects_done = 0;
 
   bool operator==(const ScoringContext&) const = default;

@@ -8,6 +8,7 @@
 
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/scoring/metrics.h"
 #include "tests/scenarios/support/practice_world.h"
 
 namespace trocar::practice_levels_test {
@@ -111,6 +112,8 @@ TEST_P(PracticeLevels, AnyErrorMoreNeverRaisesTheScore) {
 
 TEST_P(PracticeLevels, EverySubscoreFallsAsItsMetricGetsWorse) {
   for (const SubscoreRule& rule : find_level(room(GetParam().exercise).exercise, GetParam().level).rubric.subscores) {
+    EXPECT_EQ(find_metric(rule.metric)->better, rule.full_at < rule.zero_at ? Direction::kLess : Direction::kMore)
+        << rule.metric << ": a rubric grades it the way that its definition says";
     double before = 2;
     for (double share = -0.5; share <= 1.5; share += 0.05) {
       const double value = subscore_value(rule, rule.full_at + share * (rule.zero_at - rule.full_at));

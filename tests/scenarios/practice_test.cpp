@@ -105,7 +105,7 @@ TEST(Practice, AnExpertNeedsThreeQuartersOfAMinuteAndStaysGentle) {
   for (const Grade& grade : cohort("expert").grades) {
     time += *metric(grade, "time_s") / kRuns;
     EXPECT_LT(*metric(grade, "force_max_n"), room().exercise.hard_force_n);
-    EXPECT_GT(*metric(grade, "in_band_share"), 0.9) << "pressing and holding is enough for nearly full marks";
+    EXPECT_GT(*metric(grade, "object_in_band_share"), 0.9) << "pressing and holding is enough for nearly full marks";
     EXPECT_EQ(*metric(grade, "wrong_places"), 0);
   }
   // full_at of the time ramp is 0.7 of the expert's time: the calibration in the file must be this world's.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/window/attempt/debrief_reason.h"
+#include "app/window/attempt/metric_words.h"
 #include "app/window/attempt/number_words.h"
 #include "scenarios/scoring/event_types.h"
 
@@ -63,7 +64,7 @@ std::string first_touch(const Advised& a) {
 }
 
 std::string not_tried_advice(const Advised& a) {
-  if (a.facts.cause.metric == "in_band_share") return first_touch(a);
+  if (is_band_share(a.facts.cause.metric)) return first_touch(a);
   if (a.counts().grasped == 0) return a.words("Try next: go down with open jaws round the lit block, then close them.");
   return a.words("Try next: close the jaws until the block no longer slides, then lift it {0}.",
                  {millimetres(a.words, a.exercise.grasp.lift_m)});
@@ -124,9 +125,9 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   const Translator& words = a.words;
   const std::string& m = row.metric;
   if (m == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
-  if (m == "in_band_share") return in_band_advice(a);
+  if (is_band_share(m)) return in_band_advice(a);
   if (m == "excess_events") return excess_advice(a);
-  if (m == "grip_window_share")
+  if (is_window_share(m))
     return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
   if (m == "crushed") return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
   if (m == "block_regrasps")
@@ -180,8 +181,8 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "wrong_places")
     return words(row.raw == 1 ? "Once beside the disc." : "{0} times beside the disc.", {row.value});
   if (m == "excess_events") return count_of_force(a, row);
-  if (m == "in_band_share") return words("In the band for {0} of the pressing time.", {row.value});
-  if (m == "grip_window_share") return count_of_grip(a, row);
+  if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
+  if (is_window_share(m)) return count_of_grip(a, row);
   if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/window/attempt/debrief_reason.h"
-#include "scenarios/kinds/grasp/grasp_events.h"
+#include "scenarios/scoring/event_types.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/progress/learning_curve.h"
 

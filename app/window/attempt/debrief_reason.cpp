@@ -4,13 +4,14 @@
 
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_report.h"
+#include "app/window/attempt/metric_words.h"
 #include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kWorthSaying = 0.5;  // points
-constexpr const char *kForceInBand = "in_band_share", *kWrongPlaces = "wrong_places";
+constexpr const char* kWrongPlaces = "wrong_places";
 
 /// The row that cost most of those that `counts`; of two that cost the same the first, and safety comes first. Null
 /// without one.
@@ -28,7 +29,7 @@ double share_lost(const DebriefRow& row) { return row.possible > 0 ? row.lost / 
 /// is no force in the band, however gentle. Null otherwise.
 const DebriefRow* missed_discs(const std::vector<DebriefRow>& rows) {
   const DebriefRow* force =
-      costliest(rows, [](const DebriefRow& row) { return row.metric == kForceInBand && row.failed; });
+      costliest(rows, [](const DebriefRow& row) { return is_band_share(row.metric) && row.failed; });
   const DebriefRow* place =
       costliest(rows, [](const DebriefRow& row) { return row.metric == kWrongPlaces && row.raw.value_or(0) > 0; });
   return force && place && share_lost(*place) >= share_lost(*force) - 1e-9 ? place : nullptr;
@@ -62,8 +63,8 @@ std::string undone_words(const Translator& words, const AttemptResult& result, c
 /// What was never done, so that this part has no value.
 std::string not_tried_words(const Translator& words, const DebriefRow& row, const EventCounts& counts) {
   const std::vector<std::string> part{words.made(row.subscore)};
-  if (row.metric == "in_band_share") return words("No disc was touched, so {0} cannot be judged.", part);
-  if (row.metric == "grip_window_share")
+  if (is_band_share(row.metric)) return words("No disc was touched, so {0} cannot be judged.", part);
+  if (is_window_share(row.metric))
     return counts.grasped == 0 ? words("No block was gripped, so {0} cannot be judged.", part)
                                : words("No block was lifted, so {0} cannot be judged.", part);
   return words("Nothing was done that {0} could be judged by.", part);
@@ -96,15 +97,19 @@ std::string ungraded_words(const Translator& words, const AttemptResult& result,
       return t > 0 ? words("You left the attempt, so there is no score. It counts as not passed.")
                    : words("You left before the clock began, so there is no score. It counts as not passed.");
     case Outcome::kDeviceStopped:
-      return words("The device stopped. That is not your doing: the attempt does not count.");
+      return facts.counts.started
+                 ? words("The device stopped. The attempt does not count, but passes in a row begin anew.")
+                 : words("The device stopped. That is not your doing: the attempt does not count.");
     default:
       switch (facts.cause.kind) {
         case DebriefCause::Kind::kDeadman:
-          return words("The deadman was opened while the clock ran: the attempt is void, and it does not count.");
+          return words("The deadman was opened while the clock ran: the attempt is void, and counts as not passed.");
         case DebriefCause::Kind::kNotStarted:
           return words("The clock never began: nothing is graded, and it does not count.");
         default:
-          return words("The attempt is void: its record cannot be graded, and it does not count.");
+          return facts.counts.started
+                     ? words("The attempt is void: its record cannot be graded. Passes in a row begin anew.")
+                     : words("The attempt is void: its record cannot be graded, and it does not count.");
       }
   }
 }
@@ -164,7 +169,7 @@ DebriefCause cause_of(const AttemptResult& result, const DebriefFacts& facts) {
   if (late && !facts.counts.started) return {Kind::kNotStarted};
   const DebriefRow* beside = missed_discs(facts.rows);
   if (const DebriefRow* gate = costliest(facts.rows, [&](const DebriefRow& row) {
-        return row.failed && row.raw && !(beside && row.metric == kForceInBand);
+        return row.failed && row.raw && !(beside && is_band_share(row.metric));
       }))
     return of(Kind::kGate, gate);
   if (beside) return of(Kind::kBeside, beside);

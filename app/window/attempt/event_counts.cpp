@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scenarios/kinds/grasp/grasp_events.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 

@@ -47,6 +47,11 @@ bool is_count(const std::string& metric, const std::string& unit) {
          !among(metric, {"", "economy", "path_ratio", "sparc", "ldlj", "normalised_jerk"});
 }
 
+bool is_band_share(const std::string& metric) { return among(metric, {"in_band_share", "object_in_band_share"}); }
+bool is_window_share(const std::string& metric) {
+  return among(metric, {"grip_window_share", "object_grip_window_share"});
+}
+
 std::string metric_text(const Translator& words, const std::string& metric, const std::optional<double>& value,
                         const std::string& unit) {
   if (!value || !std::isfinite(*value)) return words("n/a");

@@ -17,6 +17,9 @@ enum class ScoreGroup : std::uint8_t { kSafety, kAccuracy, kMotion, kTime };
 ScoreGroup group_of(const SubscoreRule& rule);
 std::string group_name(const Translator& words, ScoreGroup group);
 
+/// The share of the wanted force or grip: by object, or all together as in older rubrics.
+bool is_band_share(const std::string& metric);
+bool is_window_share(const std::string& metric);
 /// "312 mm", "87 %", "3", "0.62 N"; "n/a" without a value. @param metric its name, "" unknown. @param unit as in the
 /// catalogue.
 std::string metric_text(const Translator& words, const std::string& metric, const std::optional<double>& value,

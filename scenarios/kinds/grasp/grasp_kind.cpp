@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "scenarios/kinds/grasp/grasp_events.h"
 #include "scenarios/kinds/grasp/grasp_layout.h"
 #include "scenarios/kinds/grasp/grasp_reader.h"
 #include "scenarios/kinds/grasp/grasp_task.h"
+#include "scenarios/scoring/event_types.h"
 
 namespace trocar {
 namespace {

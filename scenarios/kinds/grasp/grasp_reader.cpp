@@ -53,7 +53,9 @@ void read_board(StrictTable table, GraspRules& rules) {
 
 void read_grasp(StrictTable& document, Exercise& exercise) {
   GraspRules& rules = exercise.grasp;
-  read_blocks(document.table("blocks"), rules);
+  StrictTable blocks = document.table("blocks");
+  exercise.counted_hold_s = blocks.number_or("counted_carry_s", 0.1, 60, 0);  // files of before it was graded by block
+  read_blocks(std::move(blocks), rules);
   read_board(document.table("board"), rules);
   if (rules.rows * rules.columns != exercise.layout.count)
     document.fail("blocks", "'rows' times 'columns' must be the 'count' of [targets]");

@@ -5,7 +5,6 @@ namespace {
 
 constexpr double kJawClearance = 0.001;  // m that the jaws must be wider than the block before it is offered
 constexpr double kGripTouch = 0.05;      // N
-constexpr EventType kGripOffered{"GRIP_OFFERED"};
 
 }  // namespace
 
@@ -29,7 +28,7 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
     if (state.jaw_opening_m < task_.block_thickness_m + kJawClearance) return;
     offered_ = true;
     offered_at_s_ = log.t_s;
-    log.add(kGripOffered, Severity::kInfo, object_, task_.block_thickness_m, "m");
+    log.add(event_type::kGripOffered, Severity::kInfo, object_, task_.block_thickness_m, "m");
     return;
   }
   const double grip = state.grip_force_n;
@@ -41,7 +40,8 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
     ++excess_count_;
     log.add(event_type::kGripExcess, Severity::kMajor, object_, grip, "N");
   }
-  if (!hold_.update(grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
+  if (input.frozen()) hold_.reset();
+  if (!hold_.update(!input.frozen() && grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
   finished_ = true;
   log.add(event_type::kGripHeld, Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
 }

@@ -186,6 +186,24 @@ TEST_F(DirectorTest, HoldNeedsOneSecondInsideTheBand) {
   EXPECT_EQ(count("TARGET_HELD"), 1) << "a short excursion only pauses";
 }
 
+TEST_F(DirectorTest, TheClutchHoldsNothing) {
+  start();
+  pressing(board().targets[0].centre_T, 0.6);
+  feed(0.3);
+  for (bool StylusState::*frozen : {&StylusState::clutched, &StylusState::port_held}) {
+    state_.*frozen = true;
+    feed(5);
+    EXPECT_EQ(director_.status().hold_progress, 0) << "frozen in the band";
+    EXPECT_EQ(count("TARGET_HELD"), 0);
+    state_.*frozen = false;
+    feed(0.5);
+    EXPECT_NEAR(last("INSTRUMENT_FREE").value, 5, 0.02);
+  }
+  feed(0.6);
+  EXPECT_EQ(count("TARGET_HELD"), 1);
+  EXPECT_EQ(count("INSTRUMENT_FREE"), 2);
+}
+
 TEST_F(DirectorTest, LongExcursionStartsTheHoldAgain) {
   start();
   pressing(board().targets[0].centre_T, 0.6);

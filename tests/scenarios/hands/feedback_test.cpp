@@ -216,7 +216,8 @@ TEST(SafetyWatch, NotesEachPressOfTheClutchOnce) {
     w.feed(0.1);
   }
   EXPECT_EQ(w.count("CLUTCH"), 3);
-  EXPECT_EQ(w.log.events.size(), 3u);
+  EXPECT_EQ(w.count("INSTRUMENT_FREE"), 3);
+  EXPECT_EQ(w.log.events.size(), 6u);
   EXPECT_EQ(w.log.events[0].severity, Severity::kInfo);
   EXPECT_EQ(w.log.events[0].object, 4);
 }

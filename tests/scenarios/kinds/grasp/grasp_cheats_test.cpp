@@ -139,7 +139,7 @@ TEST(GraspCheats, SweepingTheBoardEmptyEarnsNothing) {
   EXPECT_EQ(bench.director.outcome(), AttemptStatus::kCompleted) << "there is nothing left to do";
   const Grade grade = bench.grade();
   EXPECT_EQ(value_of(grade.metrics, "objects_done_share"), 0.0);
-  EXPECT_FALSE(value_of(grade.metrics, "grip_window_share").has_value());
+  EXPECT_FALSE(value_of(grade.metrics, "object_grip_window_share").has_value());
   EXPECT_FALSE(grade.passed);
   EXPECT_EQ(grade.score.value(), 0);
   const Cap* undone = cap_of(grade, CapKind::kUnfinished);
