@@ -23,7 +23,7 @@ struct Commands {
 
 const std::vector<Commands>& commands() {
   static const std::vector<Commands> table{
-      {{add_practice, add_run, add_sweep, add_replay, add_score, add_demo, add_bench, add_study, add_version,
+      {{add_practice, add_run, add_test, add_sweep, add_replay, add_score, add_demo, add_bench, add_study, add_version,
         add_picture, add_exercises, add_check}},
       {{add_device_forward, add_device_calibrate, add_device_selftest, add_device_monitor, add_device_plant,
         add_device_eval, add_device_ik, add_device_identify},

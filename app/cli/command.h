@@ -43,6 +43,7 @@ using AddCommand = void(CLI::App& parent, CommandAction& chosen);
 AddCommand add_practice;
 AddCommand add_run;
 AddCommand add_sweep;
+AddCommand add_test;
 AddCommand add_replay;
 AddCommand add_score;
 AddCommand add_demo;

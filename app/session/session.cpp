@@ -8,6 +8,7 @@
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_report.h"
 #include "app/session/grading/recorded_result.h"
+#include "app/session/lanes/clock_witness.h"
 #include "app/session/lanes/force_sensor_task.h"
 #include "app/session/lanes/hand_task.h"
 #include "app/session/lanes/haptic_task.h"
@@ -236,9 +237,13 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   if (attempt.sensor) executor.add_lane("force-sensor", {&*attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);
   if (hooks.observe && !each_step) executor.add_own_lane("pictures", {&observer});
-  executor.run(hooks.interrupted);
+  ClockWitness witness;
+  executor.run([&] {
+    witness.look();
+    return hooks.interrupted && hooks.interrupted();
+  });
   SessionOutcome out = attempt.outcome();
-  out.device.realtime = realtime_json(executor, attempt.recorder.lost());
+  out.device.realtime = realtime_json(executor, attempt.recorder.lost(), witness.seen());
   out.notes = realtime_notes(executor, attempt.recorder.lost());
   return out;
 }
@@ -344,17 +349,21 @@ Grade grade_recording(const Recording& recording, const std::string& name, const
   const RecordedSetup recorded = parse_scene_json(recording.session, name);
   const Exercise& own = recorded.setup.exercise;
   const ExerciseLevel& judged = find_level(rubric_of ? *rubric_of : own, recorded.setup.level);
-  const Rubric& rubric = recorded.daq.motors ? judged.rubric : judged.pointer.rubric;
+  const Rubric& rubric = rubric_for(judged, recorded.daq);
   ScoringContext context;
   if (recording.end && !recording.end->summary_json.empty()) {
     context = parse_scoring_context(recording.end->summary_json, name);
+    if (context.counted_hold_s == 0) context.counted_hold_s = (rubric_of ? *rubric_of : own).counted_hold_s;
   } else {
     context.outcome = AttemptStatus::kAborted;  // cut off: no number, but the metrics of what is there
     const ExerciseLevel& level = find_level(own, recorded.setup.level);
     context = scoring_context(own, level, Board{}, recording.events, AttemptStatus::kAborted);
   }
   const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-  return score_attempt(trace, recording.events, rubric, context);
+  Grade grade = score_attempt(trace, recording.events, rubric, context);
+  if (!grade.score || recording.run_report_json.empty()) return grade;
+  const std::string fault = pacing_fault(parse_run_report(recording.run_report_json, name).realtime, recording.events);
+  return fault.empty() ? grade : void_grade(fault);
 }
 
 void fill_shares(const Recording& recording, RunReport& device) {

@@ -71,7 +71,7 @@ TEST_F(Crash, ACutInTheMiddleOfAChunkCostsOnlyThatChunk) {
   folder_.write("cut.trec", bytes.substr(0, bytes.size() * 3 / 4));
   const long after = ticks();
   EXPECT_LT(after, before);
-  EXPECT_GT(after, before / 2);
+  EXPECT_GE(after, before / 2) << "the head of the file, with the exercise in it, is a part of the quarter";
 }
 
 TEST_F(Crash, WhatWasStoredBeforeIsUntouchedAndTheNextAttemptRuns) {

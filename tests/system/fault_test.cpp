@@ -80,6 +80,22 @@ TEST_F(Faults, AnOpenDeadmanVoidsAndADelayIsBorne) {
   EXPECT_TRUE(late["device"]["fault"].is_null()) << late["device"];
 }
 
+TEST_F(Faults, AClockThatALibrarySlowsDownVoidsALiveRun) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer wants to be loaded first itself";
+#endif
+  Launch live = launch(short_run({"--db", ":memory:", "--realtime"}));
+  const Outcome plain = run_program(live);
+  live.environment["LD_PRELOAD"] = TROCAR_SLOW_CLOCK;
+  const Outcome slow = run_program(live);
+  const Json honest = Json::parse(plain.out, nullptr, false), slowed = Json::parse(slow.out, nullptr, false);
+  ASSERT_FALSE(honest.is_discarded() || slowed.is_discarded()) << plain.err << slow.err;
+  EXPECT_NE(honest["status"], "void");
+  EXPECT_EQ(slowed["status"], "void");
+  EXPECT_TRUE(slowed["score"].is_null());
+  EXPECT_EQ(slowed["integrity"], "void: the program's clock ran at 0.50 of the kernel's");
+}
+
 TEST_F(Faults, AnAbortedAttemptSaysWhy) {
   const Outcome outcome = trocar(short_run({"--db", ":memory:", "--inject", "deadman-open@0"}));
   EXPECT_EQ(outcome.exit_code, 1);

@@ -16,6 +16,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"practice",
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed",
         "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope"}},
+      {"test", {"--filter", "--junit", "--jobs", "--list"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay",
        {"--frames", "--fps", "--verify", "--organ", "--db", "--video", "--speed", "--width", "--height", "--beside",

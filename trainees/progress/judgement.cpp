@@ -107,7 +107,7 @@ Found integrity(const Attempts& attempts, const ProgressRules& rules) {
   return Judgement{Flag::kIntegrity,
                    "of the last " + counted(n, "attempt", "attempts") + " " + number(broken) +
                        " void or ended by the device, " + number(doubtful) +
-                       " with a late loop or force that was not rendered",
+                       " switched off in the run, with a late loop or force that was not rendered",
                    n, rules.version};
 }
 

@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t kLeastForBand = 3;
 
-bool ended_by_device(const PastAttempt& attempt) {
-  return attempt.summary.status == status_name(AttemptStatus::kFault) ||
-         attempt.summary.status == status_name(AttemptStatus::kVoid);
-}
-
 /// Value between the sorted values at share p.
 double quantile(const std::vector<double>& sorted, double p) {
   const double at = p * static_cast<double>(sorted.size() - 1);
@@ -84,7 +79,7 @@ std::vector<LearningCurve> learning_curves(const std::vector<PastAttempt>& newes
   for (const PastAttempt& attempt : newest_first) {
     const AttemptSummary& s = attempt.summary;
     const CurveKey key{s.exercise_id, s.level, s.hand, s.rubric_sha256};
-    if (s.status == "running" || ended_by_device(attempt)) continue;
+    if (s.status == "running" || s.ended_by_device) continue;
     if (std::none_of(curves.begin(), curves.end(), [&](const LearningCurve& c) { return c.key == key; })) {
       curves.emplace_back();
       curves.back().key = key;
@@ -93,7 +88,7 @@ std::vector<LearningCurve> learning_curves(const std::vector<PastAttempt>& newes
   for (auto attempt = newest_first.rbegin(); attempt != newest_first.rend(); ++attempt) {
     const AttemptSummary& s = attempt->summary;
     const CurveKey key{s.exercise_id, s.level, s.hand, s.rubric_sha256};
-    if (s.status == "running" || ended_by_device(*attempt)) continue;
+    if (s.status == "running" || s.ended_by_device) continue;
     add(*std::find_if(curves.begin(), curves.end(), [&](const LearningCurve& c) { return c.key == key; }), *attempt);
   }
   for (LearningCurve& curve : curves) curve.band = own_band(curve);

@@ -1,4 +1,5 @@
 #include "trainees/progress/past_attempts.h"
+#include "trainees/records/verdicts.h"
 
 #include <cmath>
 
@@ -38,6 +39,8 @@ PastAttempt past_attempt(const AttemptResult& result) {
   s.rubric_sha256 = result.rubric_sha256;
   s.integrity = result.integrity;
   s.cut_off = result.cut_off;
+  s.ended_by_device = ended_by_device(result);
+  s.begun = begun(result);
   for (const Metric& metric : result.grade.metrics)
     if (metric.value && std::isfinite(*metric.value)) out.metrics[metric.name] = *metric.value;
   return out;

@@ -1,6 +1,7 @@
 // What opens the next level: so many passes in a row, on as many boards; once open it stays so.
 //
-// An attempt that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count.
+// Whatever was begun and is no pass breaks the row: also what was left, switched off, or ended by the device, since
+// that can be brought about. What ended before its clock started (fault, void) does not count.
 // Pure. Thread: any.
 #pragma once
 

@@ -170,8 +170,9 @@ std::string summary_query(const std::string& code, const std::string& joins) {
   return "SELECT a.id, a.uuid, " + code +
          ", a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, " + sql::kPassed +
          ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
-         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off FROM attempt a" +
-         joins + " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
+         " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off, " +
+         sql::kEndedByDevice + ", " + sql::kBegun + " FROM attempt a" + joins +
+         " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
 }
 
 AttemptSummary summary_of(const sql::Statement& row) {
@@ -197,6 +198,8 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.decided_by = row.text(18);
   summary.decided_utc = row.text(19);
   summary.cut_off = row.integer(20) != 0;
+  summary.ended_by_device = row.integer(21) != 0;
+  summary.begun = row.integer(22) != 0;
   return summary;
 }
 

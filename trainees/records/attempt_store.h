@@ -67,6 +67,8 @@ struct AttemptSummary {
   std::string exercise_version, rubric_sha256;
   std::string integrity;                          ///< why it was aborted or void
   bool cut_off = false;                           ///< its program ended before it did
+  bool ended_by_device = false;                   ///< by it, or unfit as a record: in no curve (verdicts.h)
+  bool begun = true;                              ///< its clock had started; only of what has no number it may not
   bool passed_by_score = false;                   ///< what the score says, whatever was decided
   std::string decided_by = {}, decided_utc = {};  ///< of the newest decision, "" without one
 };

@@ -1,5 +1,8 @@
 #include "trainees/records/verdicts.h"
 
+#include <algorithm>
+
+#include "scenarios/scoring/event_types.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -18,6 +21,25 @@ Verdict verdict_of(Database& database, const AttemptResult& result) {
   const auto decisions = AssessmentStore(database).overrides_of(result.uuid);
   return verdict_of(result.grade.status, result.grade.passed,
                     decisions.empty() ? std::nullopt : std::optional(decisions.front()));
+}
+
+namespace {
+
+bool has(const AttemptResult& result, EventType type) {
+  return std::any_of(result.events.begin(), result.events.end(),
+                     [type](const Event& event) { return event.type == type; });
+}
+
+}  // namespace
+
+bool ended_by_device(const AttemptResult& result) {
+  const AttemptStatus status = result.grade.status;
+  return status == AttemptStatus::kFault || (status == AttemptStatus::kVoid && !has(result, event_type::kDeadmanOpen));
+}
+
+bool begun(const AttemptResult& result) {
+  const AttemptStatus status = result.grade.status;
+  return (status != AttemptStatus::kFault && status != AttemptStatus::kVoid) || has(result, event_type::kStart);
 }
 
 std::map<std::int64_t, bool> newest_decisions(const Database& database) {

@@ -38,7 +38,21 @@ inline constexpr const char* kDecision =
 inline constexpr const char* kPassed =
     "(CASE WHEN a.status IN ('fault', 'void') THEN 0 ELSE coalesce(o.passed, s.passed, 0) END)";
 
+/// 1 where the device ended the attempt, or its record is unfit: it is in no curve. Who opens the deadman while the
+/// clock runs has ended it himself: void, but tried, and not passed.
+inline constexpr const char* kEndedByDevice =
+    "(CASE a.status WHEN 'fault' THEN 1 WHEN 'void' THEN NOT EXISTS"
+    " (SELECT 1 FROM event e WHERE e.attempt_id = a.id AND e.type = 'DEADMAN_OPEN') ELSE 0 END)";
+/// 0 where its clock never started; looked up only for what has no number.
+inline constexpr const char* kBegun =
+    "(CASE WHEN a.status IN ('fault', 'void') THEN EXISTS"
+    " (SELECT 1 FROM event e WHERE e.attempt_id = a.id AND e.type = 'START') ELSE 1 END)";
+
 }  // namespace sql
+
+/// The same two of a result.
+bool ended_by_device(const AttemptResult& result);
+bool begun(const AttemptResult& result);
 
 /// Newest decision of every attempt that has one, by its row: for queries that read whole columns.
 std::map<std::int64_t, bool> newest_decisions(const Database& database);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scenarios/scoring/metrics.h"
+
 namespace trocar {
 namespace {
 
@@ -106,6 +108,25 @@ Json device(const RunReport& run_report) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json rubric_json(const Rubric& rubric) {
+  Json subscores = Json::array();
+  for (const SubscoreRule& rule : rubric.subscores) {
+    const MetricDefinition* metric = find_metric(rule.metric);
+    subscores.push_back({{"name", rule.name},
+                         {"metric", rule.metric},
+                         {"unit", metric ? metric->unit : ""},
+                         {"weight", rule.weight},
+                         {"full_at", rule.full_at},
+                         {"zero_at", rule.zero_at},
+                         {"gate", rule.gate},
+                         {"gate_below", rule.gate ? Json(rule.gate_below) : Json()}});
+  }
+  return {
+      {"pass_at", rubric.pass_at},   {"proficient_at", rubric.proficient_at}, {"expert_at", rubric.expert_at},
+      {"gate_cap", rubric.gate_cap}, {"critical_cap", rubric.critical_cap},   {"unfinished_cap", rubric.unfinished_cap},
+      {"subscores", subscores}};
+}
 
 std::string attempt_json(const AttemptResult& result) {
   const Json json = {{"exercise",

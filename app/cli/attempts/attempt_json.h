@@ -3,12 +3,18 @@
 
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "scenarios/scoring/attempt_result.h"
+#include "scenarios/scoring/rubric.h"
 
 namespace trocar {
 
 /// One JSON object, indented, with a closing newline. What differs between two equal runs (identifier, time, path)
 /// stands under "attempt" alone, so that two outputs can be compared without it.
 std::string attempt_json(const AttemptResult& result);
+
+/// Sub-scores with weights and anchors, caps and pass marks, as they hold at a level.
+nlohmann::ordered_json rubric_json(const Rubric& rubric);
 
 }  // namespace trocar

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/attempts/attempt_json.h"
 #include "app/cli/command.h"
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
@@ -22,25 +23,6 @@ namespace trocar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json rubric_json(const Rubric& rubric) {
-  Json subscores = Json::array();
-  for (const SubscoreRule& rule : rubric.subscores) {
-    const MetricDefinition* metric = find_metric(rule.metric);
-    subscores.push_back({{"name", rule.name},
-                         {"metric", rule.metric},
-                         {"unit", metric ? metric->unit : ""},
-                         {"weight", rule.weight},
-                         {"full_at", rule.full_at},
-                         {"zero_at", rule.zero_at},
-                         {"gate", rule.gate},
-                         {"gate_below", rule.gate ? Json(rule.gate_below) : Json()}});
-  }
-  return {
-      {"pass_at", rubric.pass_at},   {"proficient_at", rubric.proficient_at}, {"expert_at", rubric.expert_at},
-      {"gate_cap", rubric.gate_cap}, {"critical_cap", rubric.critical_cap},   {"unfinished_cap", rubric.unfinished_cap},
-      {"subscores", subscores}};
-}
 
 Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
   Json json = {{"name", level.name},
@@ -135,16 +117,22 @@ bool explain_subscore(const std::vector<Exercise>& exercises, const std::string&
 }
 
 void explain_metric(const MetricDefinition& metric, const std::vector<Exercise>& exercises, std::ostream& out) {
-  out << metric.name << " [" << metric.unit << "]: " << metric.meaning << "\nfilter " << kFilterId << '\n';
+  constexpr const char* kBetter[] = {"less is better", "more is better", "neither more nor less is better by itself"};
+  out << metric.name << " [" << metric.unit << "]: " << metric.meaning << "\n  formula   " << metric.formula
+      << "\n  direction " << kBetter[static_cast<std::size_t>(metric.better)] << "\n  evidence  " << metric.evidence
+      << "\n  filter    " << kFilterId << '\n';
+  bool graded = false;
   for (const Exercise& exercise : exercises) {
     for (const ExerciseLevel& level : exercise.levels) {
       for (const SubscoreRule& rule : level.rubric.subscores) {
         if (rule.metric != metric.name) continue;
+        graded = true;
         out << exercise.id << ' ' << level.name << '\n';
         explain_rule(rule, out);
       }
     }
   }
+  if (!graded) out << "no shipped rubric grades it\n";
 }
 
 void explain(const std::string& name, const std::vector<Exercise>& exercises, std::ostream& out) {

@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <system_error>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/command.h"
+#include "app/cli/in_parallel.h"
 #include "app/cli/text_table.h"
 #include "app/session/session.h"
 #include "haptics/fault.h"
@@ -140,34 +137,13 @@ void run_job(Job& job, const SweepOptions& options, const AssetRoots& assets) {
 
 /// Runs all jobs on some threads. @throws the first failure, after all threads have ended.
 void run_jobs(std::vector<Job>& jobs, const SweepOptions& options, const AssetRoots& assets, std::ostream& err) {
-  std::atomic<std::size_t> next{0}, done{0};
-  std::exception_ptr failure;
-  std::mutex mutex;  // guards failure and err
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      try {
-        run_job(jobs[i], options, assets);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = jobs.size();
-      }
-      const std::size_t now = ++done;
-      if (now % 50 == 0) {
-        const std::lock_guard lock(mutex);
-        err << "trocar: " << now << " of " << jobs.size() << " attempts\n";
-      }
-    }
-  };
-  const unsigned wanted = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : std::thread::hardware_concurrency();
-  std::vector<std::jthread> threads;
-  try {
-    for (unsigned i = 1; i < wanted; ++i) threads.emplace_back(work);
-  } catch (const std::system_error&) {  // the system gives no more: those that there are do the work
-  }
-  work();
-  for (std::jthread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  std::size_t done = 0;
+  std::mutex mutex;  // guards done and err
+  in_parallel(jobs.size(), options.jobs, [&](std::size_t i) {
+    run_job(jobs[i], options, assets);
+    const std::lock_guard lock(mutex);
+    if (++done % 50 == 0) err << "trocar: " << done << " of " << jobs.size() << " attempts\n";
+  });
 }
 
 /// One exercise at one level on one kind of arm: outcomes by hand, and the checks over them.

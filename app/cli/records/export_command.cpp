@@ -10,15 +10,18 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/attempts/attempt_json.h"
 #include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
 #include "app/session/recording/recording_reader.h"
+#include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
 #include "trainees/exchange/export/jigsaws.h"
 #include "trainees/exchange/export/table_export.h"
+#include "trainees/exchange/export/trace_tables.h"
 #include "trainees/exchange/export/xapi_export.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/cohort.h"
@@ -67,43 +70,70 @@ char skill_of(const std::string& hand) {
   return hand == "novice" ? 'N' : 'X';
 }
 
-/// The graded stretch as text. @throws InputError: no recording, another one, nothing in it.
-std::string kinematics_of(const AttemptResult& attempt) {
+/// The recording that an attempt was graded from. @throws InputError: none, or another one.
+Recording recording_of(const AttemptResult& attempt) {
   if (attempt.recording_path.empty()) throw InputError("it was not recorded");
-  const Recording recording = read_recording(attempt.recording_path);
+  Recording recording = read_recording(attempt.recording_path);
   if (recording.sha256 != attempt.recording_sha256)
     throw InputError("its recording is not the one that was graded (its sha256 differs)");
-  const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-  const auto window = graded_window(trace, recording.events);
-  return jigsaws_text(window ? cut_trace(trace, window->first, window->second) : trace);
+  return recording;
 }
 
-int write_jigsaws(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
-  std::map<std::string, std::string> meta;
+/// @param write an attempt's files; what it throws leaves the attempt out. @return attempts written
+/// @throws InputError: none
+template <class Write>
+int each_recording(Database& database, const ExportChoice& choice, std::ostream& err, Write write) {
   int written = 0;
   for (const std::int64_t row : choice.attempts) {
     const AttemptResult attempt = AttemptStore(database).load(row);
     try {
-      const std::string text = kinematics_of(attempt);
-      const std::string task = file_name_of(attempt.exercise_id);
-      const JigsawsTrial trial{task + "_" + attempt.uuid, skill_of(attempt.hand)};
-      folder.file(task + "/kinematics/AllGestures/" + trial.name + ".txt") << text;
-      meta[task] += jigsaws_meta_line(trial);
+      write(attempt, recording_of(attempt));
       ++written;
     } catch (const InputError& error) {
       err << "trocar: attempt " << attempt.uuid << " is left out: " << error.what() << '\n';
     }
   }
   if (written == 0) throw InputError("none of the attempts has a recording to export");
+  return written;
+}
+
+int write_jigsaws(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
+  std::map<std::string, std::string> meta;
+  const int written =
+      each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
+        const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
+        const auto window = graded_window(trace, recording.events);
+        const std::string text = jigsaws_text(window ? cut_trace(trace, window->first, window->second) : trace);
+        const std::string task = file_name_of(attempt.exercise_id);
+        const JigsawsTrial trial{task + "_" + attempt.uuid, skill_of(attempt.hand)};
+        folder.file(task + "/kinematics/AllGestures/" + trial.name + ".txt") << text;
+        meta[task] += jigsaws_meta_line(trial);
+      });
   for (const auto& [task, lines] : meta) folder.file(task + "/meta_file_" + task + ".txt") << lines;
   return written;
 }
 
+/// All that a score is made from, for another program to make it again.
+int write_traces(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
+  return each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
+    if (!recording.end) throw InputError("its recording was cut off");
+    const RecordedSetup recorded = parse_scene_json(recording.session, attempt.recording_path);
+    const Exercise& exercise = recorded.setup.exercise;
+    const std::string at = file_name_of(attempt.exercise_id) + "_" + attempt.uuid + "/";
+    write_trace_csv(rebuild_trace(recording.ticks, recording.rate_hz), folder.file(at + "trace.csv"));
+    write_events_csv(recording.events, folder.file(at + "events.csv"));
+    folder.file(at + "context.json") << recording.end->summary_json << '\n';
+    folder.file(at + "rubric.json")
+        << rubric_json(rubric_for(find_level(exercise, recorded.setup.level), recorded.daq)).dump(2) << '\n';
+    folder.file(at + "exercise.toml") << exercise.text;
+    folder.file(at + "result.json") << attempt_json(attempt);
+  });
+}
+
 void check_options(const ExportOptions& options) {
   const std::string& f = options.format;
-  if (f != "csv" && f != "json" && f != "xapi" && f != "jigsaws") {
-    throw InputError("export " + f + ": csv, json, xapi and jigsaws are known");
-  }
+  if (f != "csv" && f != "json" && f != "xapi" && f != "jigsaws" && f != "traces")
+    throw InputError("export " + f + ": csv, json, xapi, jigsaws and traces are known");
   if (f != "xapi" && (!options.home_page.empty() || !options.cmi5.empty()))
     throw InputError("--home-page and --cmi5 belong to xapi");
   if (!options.home_page.empty() && !options.cmi5.empty())
@@ -125,7 +155,7 @@ void write_statements(const ExportOptions& options, Database& database, const Ex
 
 int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err) {
   check_options(options);
-  const bool folder = options.format == "csv" || options.format == "jigsaws";
+  const bool folder = options.format != "json" && options.format != "xapi";
   PendingExport pending(options.out, folder ? Shape::kFolder : Shape::kFile);  // before minutes of work
   Database database = open_database(options.database, OpenMode::kExisting, err);
   const ReadSnapshot snapshot(database);
@@ -135,6 +165,7 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   if (options.format == "json") write_json(database, choice, pending.file());
   if (options.format == "xapi") write_statements(options, database, choice, pending.file());
   if (options.format == "jigsaws") attempts = static_cast<std::size_t>(write_jigsaws(database, choice, pending, err));
+  if (options.format == "traces") attempts = static_cast<std::size_t>(write_traces(database, choice, pending, err));
   pending.commit();
   if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
   out << attempts << (attempts == 1 ? " attempt in " : " attempts in ") << options.out.string() << '\n';
@@ -171,13 +202,14 @@ int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
 void add_export(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ExportOptions>();
   ExportOptions& o = *given;
-  CLI::App* command =
-      add_command(parent, "export", "Attempts for other programs: tables, one document, xAPI statements, kinematics",
-                  chosen, [given] { return export_command(*given, std::cout, std::cerr); });
-  command->add_option("format", o.format, "csv, json, xapi or jigsaws")
+  CLI::App* command = add_command(
+      parent, "export", "Attempts for other programs: tables, one document, xAPI statements, kinematics, traces",
+      chosen, [given] { return export_command(*given, std::cout, std::cerr); });
+  command->add_option("format", o.format, "csv, json, xapi, jigsaws or traces")
       ->required()
-      ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws"}));
-  command->add_option("--out", o.out, "Folder (csv, jigsaws) or file (json, xapi) that does not exist yet")->required();
+      ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws", "traces"}));
+  command->add_option("--out", o.out, "Folder (csv, jigsaws, traces) or file (json, xapi) that does not exist yet")
+      ->required();
   command->add_option("--trainee", o.filter.trainee, "One trainee only");
   command->add_option("--group", o.filter.group, "One group only");
   command->add_option("--exercise", o.filter.exercise, "One exercise only, by its id");

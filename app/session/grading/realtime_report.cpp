@@ -1,5 +1,7 @@
 #include "app/session/grading/realtime_report.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "app/session/lanes/real_time.h"
@@ -33,7 +35,8 @@ RunReportJson lane(const LaneReport& report) {
 
 }  // namespace
 
-std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) {
+std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost,
+                          const std::optional<WitnessedTime>& witnessed) {
   RunReportJson json = {{"kernel_realtime", real_time_kernel()},
                         {"memory_locked", executor.memory_locked()},
                         {"lost_records", lost},
@@ -41,7 +44,33 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost) 
   for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
   for (const ThreadedExecutor::Pause& pause : executor.pauses())
     json["pauses"].push_back({{"at_s", pause.at_s}, {"seconds", pause.seconds}});
+  if (witnessed)
+    json["clocks"] = {{"program_s", witnessed->program_s},
+                      {"kernel_s", witnessed->kernel_s},
+                      {"worst", witnessed->worst},
+                      {"slept_s", witnessed->slept_s}};
   return json.dump();
+}
+
+std::string pacing_fault(const std::string& realtime, const std::vector<Event>& events) {
+  const RunReportJson json = RunReportJson::parse(realtime, nullptr, false);
+  if (json.is_object() && json.contains("clocks") && json["clocks"].is_object()) {
+    const RunReportJson& clocks = json["clocks"];
+    const auto number = [&clocks](const char* name, double otherwise) {
+      return clocks.contains(name) && clocks[name].is_number() ? clocks[name].get<double>() : otherwise;
+    };
+    WitnessedTime time;
+    time.worst = number("worst", 1);
+    time.slept_s = number("slept_s", 0);
+    if (std::string fault = clock_fault(time); !fault.empty()) return fault;
+  }
+  const auto start =
+      std::find_if(events.begin(), events.end(), [](const Event& event) { return event.type == event_type::kStart; });
+  if (start == events.end()) return "";
+  int pauses = 0;
+  for (const StoodStill& pause : pauses_of(realtime))
+    pauses += pause.at_s >= start->t_s && pause.at_s <= events.back().t_s ? 1 : 0;
+  return pauses > kMostPauses ? "it was paused " + std::to_string(pauses) + " times while its clock ran" : "";
 }
 
 std::string force_sensor_json(const ForceSensorTask& sensor) {

@@ -5,20 +5,30 @@
 // "overruns",
 //  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}, and only where the
 //  run
-// stood still "pauses": [{"at_s", "seconds"}]}. Thread: any, after the run.
+// stood still "pauses": [{"at_s", "seconds"}]; "clocks": {"program_s", "kernel_s", "worst", "slept_s"}}. Thread: any,
+// after the run.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/session/lanes/clock_witness.h"
 #include "app/session/lanes/force_sensor_task.h"
 #include "app/session/lanes/threaded_executor.h"
+#include "scenarios/scoring/trace.h"
 
 namespace trocar {
 
-/// @param lost records that found a ring full.
-std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost);
+/// @param lost records that found a ring full. @param witnessed empty: no second clock could be read.
+std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost,
+                          const std::optional<WitnessedTime>& witnessed);
+/// Why a live run is no measurement: clocks that do not agree (clock_witness.h), more than kMostPauses pauses while its
+/// clock ran; "" where nothing of it is told. @param realtime as realtime_json() wrote it
+std::string pacing_fault(const std::string& realtime, const std::vector<Event>& events);
+/// Who stops a run again and again has as long for each touch as he likes.
+inline constexpr int kMostPauses = 3;
 
 /// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}.
 std::string force_sensor_json(const ForceSensorTask& sensor);

@@ -465,6 +465,10 @@ std::string scene_json(const Scene& scene) {
   return json.dump();
 }
 
+const Rubric& rubric_for(const ExerciseLevel& level, const DaqCapabilities& daq) {
+  return daq.motors ? level.rubric : level.pointer.rubric;
+}
+
 RecordedSetup parse_scene_json(const std::string& text, const std::string& name) {
   try {
     const auto json = nlohmann::json::parse(text);

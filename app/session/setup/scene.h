@@ -118,5 +118,7 @@ struct RecordedSetup {
   double force_scale = 1;  ///< kappa that the recorded attempt used
 };
 RecordedSetup parse_scene_json(const std::string& json, const std::string& name);
+/// By which an attempt of that level is judged: without motors that of a hand at the pointer.
+const Rubric& rubric_for(const ExerciseLevel& level, const DaqCapabilities& daq);
 
 }  // namespace trocar

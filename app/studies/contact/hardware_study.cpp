@@ -12,6 +12,7 @@
 #include "haptics/control/motor_heat.h"
 #include "haptics/control/peak_torque.h"
 #include "haptics/kinematics/hybrid_arm.h"
+#include "haptics/kinematics/inverse_kinematics.h"
 
 namespace trocar {
 namespace {

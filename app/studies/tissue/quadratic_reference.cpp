@@ -92,28 +92,28 @@ struct FacePoint {
 /// Every face as 16 parts of seven points (degree 5): a traction's kink within a face costs little.
 template <typename Use>
 void each_face_point(const QuadraticMesh& mesh, const std::array<int, 6>& face, const Use& use) {
-  static constexpr int kParts = 4;
+  static constexpr int kSplits = 4;
   static const double r = std::sqrt(15.0);
   const std::array<std::array<double, 3>, 3> rule{
       {{1.0 / 3, 9.0 / 40, 1}, {(6 - r) / 21, (155 - r) / 1200, 3}, {(6 + r) / 21, (155 + r) / 1200, 3}}};
   const Vector3d origin = mesh.nodes.col(face[0]);
   const Vector3d u = mesh.nodes.col(face[1]) - origin, v = mesh.nodes.col(face[2]) - origin;
-  const double part_area = u.cross(v).norm() / 2 / (kParts * kParts);
+  const double part_area = u.cross(v).norm() / 2 / (kSplits * kSplits);
   const auto at = [&](double s, double t, double weight) {
     const double l = 1 - s - t;
     FacePoint point{origin + s * u + t * v, {}, weight * part_area};
     point.shapes << l * (2 * l - 1), s * (2 * s - 1), t * (2 * t - 1), 4 * l * s, 4 * s * t, 4 * l * t;
     use(point);
   };
-  for (int i = 0; i < kParts; ++i)
-    for (int j = 0; i + j < kParts; ++j)
+  for (int i = 0; i < kSplits; ++i)
+    for (int j = 0; i + j < kSplits; ++j)
       for (const double turned : {1.0, -1.0}) {
-        if (turned < 0 && i + j == kParts - 1) continue;
+        if (turned < 0 && i + j == kSplits - 1) continue;
         const double s0 = i + (turned < 0), t0 = j + (turned < 0);
         for (const auto& [b, weight, count] : rule)
           for (int k = 0; k < count; ++k) {
             const double ds = k == 1 ? 1 - 2 * b : b, dt = k == 2 ? 1 - 2 * b : b;
-            at((s0 + turned * ds) / kParts, (t0 + turned * dt) / kParts, weight);
+            at((s0 + turned * ds) / kSplits, (t0 + turned * dt) / kSplits, weight);
           }
       }
 }

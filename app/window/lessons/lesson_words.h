@@ -32,7 +32,7 @@ struct LessonMeasure {
   std::string name;        ///< of the sub-score: "force in band"
   std::string weight;      ///< "35 %"
   std::string full, none;  ///< "80 %", "2.5 s": values of the metric that earn all and nothing
-  std::string metric;      ///< "in_band_share"
+  std::string metric;      ///< "object_in_band_share"
   std::string meaning;     ///< what the metric is
   std::string gate;        ///< what a bad value does to the whole score; empty: nothing
 };

@@ -32,16 +32,18 @@ ProgressEntry entry_of(const PracticeModel& model, LearningCurve curve) {
   const auto exercise =
       std::find_if(all.begin(), all.end(), [&](const Exercise& e) { return e.id == key.exercise_id; });
   out.name = key.exercise_id + " " + key.level;
+  bool counts = false;
   if (exercise != all.end()) {
     out.name = exercise->number + " " + w.made(exercise->title) + " " + key.level;
     const ExerciseLevel* level = level_named(*exercise, key.level);
     out.pass_at = level ? level->rubric.pass_at : exercise->rubric.pass_at;
+    counts = !curve.attempts.empty() && exercise->names(key.rubric_sha256, curve.attempts.back().summary.started_utc);
     out.older_rubric = exercise->rubric.sha256 != key.rubric_sha256;
   }
   out.input = hand_words(w, key.hand);
   const std::vector<AttemptSummary> summaries = newest_first(curve);
   out.in_a_row = passes_in_a_row(summaries);
-  out.open = opens_next(summaries);
+  out.open = counts && opens_next(summaries);
   out.cusum = cusum(curve.passes());
   const auto cut = std::find_if(summaries.begin(), summaries.end(), [](const AttemptSummary& a) { return a.cut_off; });
   if (cut != summaries.end())

@@ -1,8 +1,7 @@
 // What a trainee has done at a level of an exercise, from the attempts alone: what opens levels, and what to do next.
 //
-// A level opens after three passes in a row, on three boards, at the level before it; once open it stays so. An attempt
-// that was left (aborted) counts as not passed; one that the device ended (fault, void) does not count. Pure. Thread:
-// any.
+// A level opens after three passes in a row, on three boards, at the level before it; once open it stays so. What
+// breaks a row: trainees/progress/unlock.h. Pure. Thread: any.
 #pragma once
 
 #include <functional>
@@ -41,7 +40,8 @@ std::vector<const Exercise*> practice_order(const std::vector<Exercise>& all, bo
 /// A run by a scripted hand: shown as a demonstration, and nobody's pass.
 bool by_scripted_hand(const AttemptSummary& attempt);
 
-/// @param attempts of one trainee at one exercise, all levels, newest first.
+/// @param attempts of one trainee at one exercise, all levels, newest first. Those graded by a rubric that is not the
+/// exercise's (Exercise::names) are nobody's: neither counted nor shown.
 LevelProgress level_progress(const Exercise& exercise, const std::string& level,
                              const std::vector<AttemptSummary>& attempts);
 

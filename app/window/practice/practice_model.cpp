@@ -341,7 +341,7 @@ std::string PracticeModel::begin_attempt() {
   if (s.runner) return s.words("An attempt is running.");
   if (std::string why = locked(); !why.empty()) return why;
   AttemptRequest request = s.request(exercise(), level, organ);
-  request.setup.seed = s.seed();
+  request.setup.seed = attempt_seed(s.options.seed, s.scripted(), level);
   request.setup.board = drawn_board(request.setup.seed, level == kExamLevel);
   if (std::string why = s.run(std::move(request), Play::kAttempt); !why.empty()) return why;
   s.last_scene = s.runner->shared_scene();
@@ -404,19 +404,9 @@ bool PracticeModel::end_attempt() {
     return false;
   }
   if (!s.database->in_memory()) return true;
-  AttemptSummary summary;
-  summary.uuid = s.result->uuid;
-  summary.trainee = s.result->trainee;
-  summary.exercise_id = s.result->exercise_id;
-  summary.level = s.result->level;
-  summary.started_utc = s.result->started_utc;
-  summary.board = s.result->board;
-  summary.hand = s.result->hand;
-  summary.status = status_name(s.result->grade.status);
-  summary.score = s.result->grade.score;
-  summary.passed = s.result->grade.passed;
-  s.unkept.insert(s.unkept.begin(), summary);
-  s.unkept_numbers.insert(s.unkept_numbers.begin(), past_attempt(*s.result));
+  PastAttempt past = past_attempt(*s.result);
+  s.unkept.insert(s.unkept.begin(), past.summary);
+  s.unkept_numbers.insert(s.unkept_numbers.begin(), std::move(past));
   return true;
 }
 

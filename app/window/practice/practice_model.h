@@ -37,7 +37,7 @@ struct ModelOptions {
   std::string input = "auto";
   std::filesystem::path settings = {};  ///< empty: settings_file()
   std::string hand = {};  ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name
-  std::optional<std::int64_t> seed = {};  ///< given: every attempt draws from it
+  std::optional<std::int64_t> seed = {};  ///< given: every attempt draws from it, but a person's exam
   std::optional<double> scale = {};       ///< given: this time only, whatever the settings say
   std::string language = {};              ///< given: this time only
   std::string scope = {};                 ///< "0" or "30" degrees of the tip; given: this time only

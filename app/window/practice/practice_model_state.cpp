@@ -138,8 +138,8 @@ void PracticeModel::State::note_was_met() {
   note.reset();
 }
 
-std::int64_t PracticeModel::State::seed() const {
-  if (options.seed) return *options.seed;
+std::int64_t attempt_seed(const std::optional<std::int64_t>& asked, bool scripted, const std::string& level) {
+  if (asked && (scripted || level != kExamLevel)) return *asked;
   std::random_device device;
   return static_cast<std::int64_t>(device() & 0x7fffffffU);
 }

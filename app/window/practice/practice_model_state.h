@@ -20,6 +20,10 @@ namespace trocar {
 inline constexpr const char* kGuest = "guest";
 inline constexpr const char* kDemonstration = "demonstration";  // whose the runs of scripted hands are
 
+/// What was asked for, or drawn anew. A person's exam always is: who could choose the seed could have sat its board
+/// before, under another code.
+std::int64_t attempt_seed(const std::optional<std::int64_t>& asked, bool scripted, const std::string& level);
+
 struct PracticeModel::State {
   ModelOptions options;
   AssetRoots assets;
@@ -85,7 +89,6 @@ struct PracticeModel::State {
   }
   AttemptRequest request(Exercise exercise, const std::string& level, const std::string& organ) const;
   std::string run(AttemptRequest request, Play what);
-  std::int64_t seed() const;
 };
 
 }  // namespace trocar

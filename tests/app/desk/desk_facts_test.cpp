@@ -38,7 +38,7 @@ TEST(DeskFacts, SeveralBandsAreNoBand) {
 
 TEST(DeskFacts, TheRubricSaysWhichWayIsBetter) {
   const review::LevelFacts facts = desk_level_facts(file_text("scenarios/exercises/surface-touch.toml"), "L1");
-  EXPECT_EQ(facts.less_is_better.at("in_band_share"), false);
+  EXPECT_EQ(facts.less_is_better.at("object_in_band_share"), false);
   EXPECT_EQ(facts.less_is_better.at("time_s"), true);
   EXPECT_EQ(facts.less_is_better.count("force_max_n"), 0U);
 }

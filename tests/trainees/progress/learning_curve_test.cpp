@@ -65,6 +65,7 @@ TEST(LearningCurves, CountWhatWasTriedButNotWhatTheDeviceEnded) {
   left.metrics.clear();
   PastAttempt broken = left;
   broken.summary.status = "fault";
+  broken.summary.ended_by_device = true;
   newest_first.insert(newest_first.begin() + 1, {broken, left});
   const LearningCurve c = learning_curves(newest_first).front();
   EXPECT_EQ(c.attempts.size(), 5u);
@@ -75,6 +76,40 @@ TEST(LearningCurves, CountWhatWasTriedButNotWhatTheDeviceEnded) {
   EXPECT_EQ(c.best, 88);
   EXPECT_EQ(c.last, 88);
   EXPECT_EQ(c.passes(), (std::vector<bool>{true, false, true, false, true}));
+}
+
+TEST(LearningCurves, WhatWasSwitchedOffInTheRunIsATryThatFailed) {
+  Database database(":memory:");
+  const auto stored = [&](AttemptStatus status, const std::vector<std::string>& events) {
+    AttemptResult result = sample_result();
+    result.grade = {};
+    result.grade.status = status;
+    result.events.clear();
+    for (const std::string& type : events) {
+      Event event;
+      event.t_s = static_cast<double>(result.events.size());
+      event.type = type;
+      result.events.push_back(event);
+    }
+    store_attempt(database, sample_start("A"), result);
+    const PastAttempt read = past_attempts(database, "A").front(), made = past_attempt(result);
+    EXPECT_EQ(read.summary.ended_by_device, made.summary.ended_by_device);
+    EXPECT_EQ(read.summary.begun, made.summary.begun);
+    return read.summary;
+  };
+  const AttemptSummary off = stored(AttemptStatus::kVoid, {"START", "DEADMAN_OPEN"});
+  EXPECT_FALSE(off.ended_by_device);
+  EXPECT_TRUE(off.begun);
+  const AttemptSummary unfit = stored(AttemptStatus::kVoid, {"START", "DONE"});
+  EXPECT_TRUE(unfit.ended_by_device) << "its record cannot be graded";
+  EXPECT_TRUE(unfit.begun);
+  EXPECT_FALSE(stored(AttemptStatus::kVoid, {"TIMEOUT"}).begun);
+  EXPECT_FALSE(stored(AttemptStatus::kFault, {"DEVICE_FAULT"}).begun);
+  EXPECT_TRUE(stored(AttemptStatus::kFault, {"START", "DEVICE_FAULT"}).begun);
+  EXPECT_TRUE(stored(AttemptStatus::kAborted, {}).begun) << "who leaves has been there";
+  const std::vector<LearningCurve> curves = learning_curves(past_attempts(database, "A"));
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves.front().passes(), (std::vector<bool>{false, false})) << "switched off, left";
 }
 
 TEST(LearningCurves, TheBandIsOfTheNewestTenAndNotOfTwo) {

@@ -6,14 +6,16 @@
 namespace trocar::unlock_test {
 namespace {
 
-/// Newest first: upper case passed, lower case failed, the letter is the board; '-' left, '!' void, '.' running.
+/// Newest first: upper case passed, lower case failed, the letter is the board; '-' left, '!' switched off or ended by
+/// the device in the run, '?' before its clock began, '.' running.
 std::vector<AttemptSummary> attempts(const std::string& newest_first) {
   std::vector<AttemptSummary> out;
   for (const char c : newest_first) {
     AttemptSummary a;
-    a.status = c == '!' ? "void" : c == '.' ? "running" : c == '-' ? "aborted" : "completed";
+    a.status = c == '!' || c == '?' ? "void" : c == '.' ? "running" : c == '-' ? "aborted" : "completed";
     a.passed = c >= 'A' && c <= 'Z';
     a.board = a.passed ? c - 'A' : c - 'a';
+    a.begun = c != '?';
     out.push_back(a);
   }
   return out;
@@ -36,8 +38,10 @@ TEST(Unlock, CountsBoardsNotAttempts) {
                          {"aABC", 0, true},
                          {"-ABC", 0, true},
                          {"A-BC", 1, false},
-                         {"A!BC", 3, true},
+                         {"A!BC", 1, false},
+                         {"A?BC", 3, true},
                          {".ABC", 3, true},
+                         {"A.BC", 1, false},
                          {"aBcDEFg", 0, true},
                          {"ABcAB", 2, false}}) {
     EXPECT_EQ(passes_in_a_row(attempts(row.newest_first)), row.in_a_row) << row.newest_first;

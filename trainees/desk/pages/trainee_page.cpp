@@ -136,7 +136,7 @@ std::vector<ListedAttempt> listed(const TraineeView& view) {
 
 std::string result_cell(const ListedAttempt& one) {
   const CurvePoint& p = *one.point;
-  if (one.place == 0) return shape("void") + "ended by the device, counts for nothing";
+  if (one.place == 0) return shape("void") + "ended by the device: not counted, passes in a row begin anew";
   const std::string verdict = shape(p.passed ? "pass" : "fail") + (p.passed ? "passed" : "not passed");
   if (!p.decided_by.empty()) return verdict + " by decision of " + escape_html(p.decided_by);
   return p.score ? verdict : shape("void") + "no score";

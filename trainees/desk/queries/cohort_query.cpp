@@ -109,12 +109,13 @@ std::vector<CurveKey> curves_of(sqlite3* connection, const CohortFilter& filter)
   return out;
 }
 
-constexpr const char* kCurveRows =
-    "SELECT id, trainee_id, status IN ('fault', 'void'), device_overruns > ?5 * device_ticks OR "
-    "coalesce(saturated_contact_share, 0) > ?6,"
-    " started_utc FROM attempt INDEXED BY attempt_by_curve WHERE exercise_id = ?1 AND level = ?2 AND hand = ?3 AND "
-    "substr(ruleset_sha256, 1, 16) = ?4"
-    " AND status <> 'running' ORDER BY trainee_id, id";
+std::string curve_rows() {
+  return "SELECT a.id, a.trainee_id, " + std::string(sql::kEndedByDevice) +
+         ", a.status = 'void' OR a.device_overruns > ?5 * a.device_ticks OR coalesce(a.saturated_contact_share, 0) > "
+         "?6,"
+         " a.started_utc FROM attempt a INDEXED BY attempt_by_curve WHERE a.exercise_id = ?1 AND a.level = ?2 AND "
+         "a.hand = ?3 AND substr(a.ruleset_sha256, 1, 16) = ?4 AND a.status <> 'running' ORDER BY a.trainee_id, a.id";
+}
 
 /// One trainee on one curve while it is read.
 struct Draft {
@@ -141,7 +142,7 @@ class CohortPass {
 
   std::vector<CohortLine> lines() {
     for (const CurveKey& key : curves_of(connection_, filter_)) {
-      sql::Statement rows(connection_, kCurveRows);
+      sql::Statement rows(connection_, curve_rows());
       rows.bind(key.exercise_id)
           .bind(key.level)
           .bind(key.hand)

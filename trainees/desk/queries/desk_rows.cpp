@@ -76,10 +76,6 @@ bool doubtful(double ticks, double overruns, double saturated_share, double late
   return overruns > late_share * ticks || saturated_share > kNotRendered;
 }
 
-bool broken(const std::string& status) {
-  return status == status_name(AttemptStatus::kFault) || status == status_name(AttemptStatus::kVoid);
-}
-
 std::string rubric_start(const std::string& sha256) { return sha256.substr(0, 16); }
 
 std::map<std::int64_t, std::vector<double>> cohort_scores(sqlite3* connection, const CurveKey& key) {

@@ -41,8 +41,6 @@ inline constexpr double kNotRendered = 0.05;
 /// Whether the device loop was late or could not give the force; shares as the database has them, NaN where it has
 /// none.
 bool doubtful(double ticks, double overruns, double saturated_share, double late_share);
-/// Void, or ended by the device.
-bool broken(const std::string& status);
 
 /// Exercise, level and input of all attempts, each combination once, in order. Of 10^5 attempts it reads some fifty.
 struct Combination {

@@ -10,6 +10,7 @@
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/verdicts.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review {
@@ -57,7 +58,10 @@ Exclusion counted(Database& database, const std::string& words, const std::strin
 
 std::vector<Exclusion> exclusions_of(Database& database, const std::string& group) {
   return {
-      counted(database, "Void: not a measurement (counted nowhere)", "a.status = 'void'", group),
+      counted(database, "Void: not a measurement (counted nowhere)",
+              "a.status = 'void' AND " + std::string(sql::kEndedByDevice), group),
+      counted(database, "Switched off while the clock ran (a try that failed, void)",
+              "a.status = 'void' AND NOT " + std::string(sql::kEndedByDevice), group),
       counted(database, "Ended by the device (counted nowhere)", "a.status = 'fault'", group),
       counted(database, "Left before the end (a try that failed, without a score)", "a.status = 'aborted'", group),
       counted(database, "Without a score for another reason",

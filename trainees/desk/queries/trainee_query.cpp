@@ -10,6 +10,7 @@
 #include "trainees/progress/calendar.h"
 #include "trainees/records/cohort.h"
 #include "trainees/records/trainee_store.h"
+#include "trainees/records/verdicts.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -25,16 +26,18 @@ std::map<CurveKey, std::vector<SafetyRecord>> safety_of(sqlite3* connection, std
       " (SELECT count(*) FROM event e WHERE e.attempt_id = a.id AND e.severity = 'critical'),"
       " (SELECT count(*) FROM score s JOIN score_cap c ON c.score_id = s.id WHERE s.attempt_id = a.id AND s.revision = "
       "0"
-      "  AND c.kind = 'gate')"
-      " FROM attempt a WHERE a.trainee_id = ? AND a.status <> 'running' ORDER BY a.id");
+      "  AND c.kind = 'gate'), " +
+          std::string(sql::kEndedByDevice) +
+          " FROM attempt a WHERE a.trainee_id = ? AND a.status <> 'running' ORDER BY a.id");
   rows.bind(trainee);
   while (rows.step()) {
     SafetyRecord record;
     record.uuid = rows.text(0);
     record.critical_events = static_cast<int>(rows.integer(10));
     record.failed_gates = static_cast<int>(rows.integer(11));
-    record.broken = desk::broken(rows.text(5));
-    record.doubtful = desk::doubtful(rows.real(7), rows.real(8), rows.real(9), late_share);
+    record.broken = rows.integer(12) != 0;
+    record.doubtful = rows.text(5) == status_name(AttemptStatus::kVoid) ||
+                      desk::doubtful(rows.real(7), rows.real(8), rows.real(9), late_share);
     record.started_utc = rows.text(6);
     out[{rows.text(1), rows.text(2), rows.text(3), rows.text(4)}].push_back(record);
   }
@@ -164,7 +167,7 @@ void add_ability(Database& database, const Trainee& trainee, const ProgressRules
 std::vector<PastAttempt> ended_by_device(const std::vector<PastAttempt>& newest_first) {
   std::vector<PastAttempt> out;
   std::copy_if(newest_first.rbegin(), newest_first.rend(), std::back_inserter(out),
-               [](const PastAttempt& attempt) { return desk::broken(attempt.summary.status); });
+               [](const PastAttempt& attempt) { return attempt.summary.ended_by_device; });
   return out;
 }
 

@@ -112,6 +112,10 @@ TEST(Explain, AMetricIsDefinedAndItsUsesAreListed) {
   for (const MetricDefinition& metric : metric_catalogue()) {
     const std::string name(metric.name), text = explained(name);
     EXPECT_EQ(text.find(name + " [" + std::string(metric.unit) + "]: " + std::string(metric.meaning)), 0u) << text;
+    for (const std::string& told :
+         {"formula   " + std::string(metric.formula), "evidence  " + std::string(metric.evidence)})
+      EXPECT_EQ(count(text, "\n  " + told + "\n"), 1) << text;
+    EXPECT_EQ(count(text, " is better"), 1) << text;
     int uses = 0;
     for (const Exercise& exercise : shipped()) {
       for (const ExerciseLevel& level : exercise.levels) {

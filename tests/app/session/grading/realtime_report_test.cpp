@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/session/grading/recorded_result.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
@@ -34,7 +36,7 @@ TEST(RealtimeReport, EveryLaneSaysItsPolicyRateAndLatencies) {
   executor.add_lane("first", {&first}, 0);
   executor.add_lane("second", {&second}, 0);
   executor.run();
-  const Json json = Json::parse(realtime_json(executor, 7));
+  const Json json = Json::parse(realtime_json(executor, 7, WitnessedTime{2, 2, 1, 0}));
   EXPECT_TRUE(json.at("kernel_realtime").is_boolean());
   EXPECT_EQ(json.at("memory_locked"), executor.memory_locked());
   EXPECT_EQ(json.at("lost_records"), 7);
@@ -59,6 +61,50 @@ TEST(RealtimeReport, EveryLaneSaysItsPolicyRateAndLatencies) {
   same("cpu_us", report.cpu);
 }
 
+TEST(RealtimeReport, ASecondClockWitnessesTheProgramsOwn) {
+  ThreadedExecutor executor(500);
+  const auto told = [&](const std::optional<WitnessedTime>& time) {
+    return pacing_fault(realtime_json(executor, 0, time), {});
+  };
+  EXPECT_EQ(told({}), "") << "no second clock could be read";
+  EXPECT_EQ(told(WitnessedTime{60, 60, 1.008, 0.01}), "");
+  EXPECT_EQ(told(WitnessedTime{60, 60, 0.5, 0}), "the program's clock ran at 0.50 of the kernel's")
+      << "slow in the run, fast before it";
+  EXPECT_EQ(told(WitnessedTime{62, 60, 1.03, 0}), "the program's clock ran at 1.03 of the kernel's");
+  EXPECT_EQ(told(WitnessedTime{60, 60, 1, 12}), "the machine slept for 12.00 s while the attempt ran");
+  for (const char* nothing : {"", "[]", "{}", R"({"clocks": 3})", R"({"clocks": {"worst": "x"}})"})
+    EXPECT_EQ(pacing_fault(nothing, {}), "") << nothing;
+  ClockWitness witness;
+  EXPECT_FALSE(witness.seen());
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(2300);
+  while (std::chrono::steady_clock::now() < end) {
+    witness.look();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  const std::optional<WitnessedTime> own = witness.seen();
+  ASSERT_TRUE(own) << "x86-64 and AArch64";
+  EXPECT_NEAR(own->program_s, own->kernel_s, 2e-3);
+  EXPECT_GE(own->kernel_s, 2);
+  EXPECT_NEAR(own->worst, 1, 2e-3);
+  EXPECT_NEAR(own->slept_s, 0, 1e-3);
+}
+
+TEST(RealtimeReport, ARunThatIsStoppedAgainAndAgainIsNoMeasurement) {
+  std::vector<Event> events(2);
+  events[0].type = "START";
+  events[0].t_s = 5;
+  events[1].type = "DONE";
+  events[1].t_s = 40;
+  const auto paused = [&](int times, double at_s) {
+    Json json = {{"pauses", Json::array()}};
+    for (int i = 0; i < times; ++i) json["pauses"].push_back({{"at_s", at_s + i}, {"seconds", 0.2}});
+    return pacing_fault(json.dump(), events);
+  };
+  EXPECT_EQ(paused(kMostPauses, 10), "");
+  EXPECT_EQ(paused(kMostPauses + 1, 10), "it was paused 4 times while its clock ran");
+  EXPECT_EQ(paused(10, -20), "") << "before START";
+}
+
 TEST(RealtimeReport, NotesSayWhatWasRefusedAndWhatWasLost) {
   Counted task(5);
   ThreadedExecutor executor(500);
@@ -70,7 +116,7 @@ TEST(RealtimeReport, NotesSayWhatWasRefusedAndWhatWasLost) {
   EXPECT_EQ(whole.size(), refused);
   ASSERT_EQ(torn.size(), refused + 1);
   EXPECT_EQ(torn.back().find("3 records found no room"), 0u) << torn.back();
-  const Json lane = Json::parse(realtime_json(executor, 0)).at("lanes").at("haptic");
+  const Json lane = Json::parse(realtime_json(executor, 0, {})).at("lanes").at("haptic");
   EXPECT_EQ(lane.contains("refused"), !report.refusal.empty());
   if (!report.refusal.empty()) {
     EXPECT_CONTAINS(whole.front(), "the haptic thread did not get SCHED_FIFO (" + report.refusal + ")");

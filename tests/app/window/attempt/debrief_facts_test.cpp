@@ -70,13 +70,13 @@ TEST_F(DebriefFactsTest, RowsGoFromSafetyToTime) {
                                [](const DebriefRow& a, const DebriefRow& b) { return a.group < b.group; }));
     EXPECT_EQ(f.rows.back().metric, "time_s") << "although it cost most";
   }
-  EXPECT_EQ(row(facts(graded(touch_, "L1")), "in_band_share").group, ScoreGroup::kSafety);
+  EXPECT_EQ(row(facts(graded(touch_, "L1")), "object_in_band_share").group, ScoreGroup::kSafety);
   EXPECT_EQ(row(facts(graded(touch_, "L1")), "wrong_places").group, ScoreGroup::kAccuracy);
   EXPECT_EQ(row(facts(graded(touch_, "L1")), "path_ratio").group, ScoreGroup::kMotion);
 }
 
 TEST_F(DebriefFactsTest, APassSaysTheScoreAndWhereMostWent) {
-  const DebriefFacts f = facts(graded(touch_, "L1", {{"in_band_share", 0.8}}));
+  const DebriefFacts f = facts(graded(touch_, "L1", {{"object_in_band_share", 0.8}}));
   EXPECT_EQ(f.outcome, Outcome::kPass);
   EXPECT_EQ(f.verdict, "PASS");
   EXPECT_EQ(f.reason, "90.0 of 100 points, a pass needs 75. Most points were lost on: Force in band.");
@@ -101,7 +101,7 @@ TEST_F(DebriefFactsTest, WhatHelpedIsSaid) {
 }
 
 TEST_F(DebriefFactsTest, OfTwoFailedGatesTheCostlierComesFirstAndTheOtherIsNotHidden) {
-  AttemptResult result = graded(touch_, "L1", {{"excess_events", 4}, {"in_band_share", 0.4}});
+  AttemptResult result = graded(touch_, "L1", {{"excess_events", 4}, {"object_in_band_share", 0.4}});
   put_caps(result, touch_);
   const DebriefFacts f = facts(result);
   EXPECT_EQ(f.reason, "Force in band: 40 %; a pass needs at least 65 %.");
@@ -149,7 +149,7 @@ TEST_F(DebriefFactsTest, WhatCapsTheScoreIsSaidInTheLanguage) {
 }
 
 TEST_F(DebriefFactsTest, BelowThePassLineTheLargestLossIsTheReason) {
-  const AttemptResult result = graded(touch_, "L1", {{"wrong_places", 6}, {"in_band_share", 0.7}});
+  const AttemptResult result = graded(touch_, "L1", {{"wrong_places", 6}, {"object_in_band_share", 0.7}});
   const DebriefFacts f = facts(result);
   EXPECT_EQ(f.outcome, Outcome::kNotYet);
   EXPECT_EQ(f.reason, "65.0 of 100 points, a pass needs 75. Most points were lost on: Place.");
@@ -200,19 +200,20 @@ TEST_F(DebriefFactsTest, ForceThatTheDeviceCouldNotGiveIsSaidEvenOnAPass) {
 }
 
 TEST_F(DebriefFactsTest, OwnBestAndMedianPointTheRightWay) {
-  const AttemptResult result = graded(touch_, "L1", {{"time_s", 50}, {"in_band_share", 0.7}, {"wrong_places", 2}});
+  const AttemptResult result =
+      graded(touch_, "L1", {{"time_s", 50}, {"object_in_band_share", 0.7}, {"wrong_places", 2}});
   DebriefPast past;
   for (int n = 0; n < 3; ++n)
-    past.own.push_back(
-        past_run(result, n, 70, false, {{"time_s", 60.0 + n}, {"in_band_share", 0.8 + 0.05 * n}, {"wrong_places", 2}}));
+    past.own.push_back(past_run(result, n, 70, false,
+                                {{"time_s", 60.0 + n}, {"object_in_band_share", 0.8 + 0.05 * n}, {"wrong_places", 2}}));
   past.expert = {{"time_s", 37.1}};
   const DebriefFacts f = facts(result, past);
   EXPECT_EQ(row(f, "time_s").best, "60.0 s");
   EXPECT_EQ(row(f, "time_s").median, "61.0 s");
   EXPECT_EQ(row(f, "time_s").expert, "37.1 s");
   EXPECT_EQ(row(f, "time_s").against_median, 1) << "quicker is better";
-  EXPECT_EQ(row(f, "in_band_share").best, "90 %");
-  EXPECT_EQ(row(f, "in_band_share").against_median, -1);
+  EXPECT_EQ(row(f, "object_in_band_share").best, "90 %");
+  EXPECT_EQ(row(f, "object_in_band_share").against_median, -1);
   EXPECT_EQ(row(f, "wrong_places").against_median, 0) << "the same";
   EXPECT_EQ(row(f, "wrong_places").expert, "");
 }
@@ -259,7 +260,7 @@ TEST(MetricText, ReadsInTheUnitsOfPeople) {
   };
   EXPECT_EQ(text("position_error_m", 0.00234, "m"), "2.3 mm");
   EXPECT_EQ(text("path_m", 1.234, "m"), "1234 mm");
-  EXPECT_EQ(text("in_band_share", 0.654, "1"), "65 %");
+  EXPECT_EQ(text("object_in_band_share", 0.654, "1"), "65 %");
   EXPECT_EQ(text("excess_events", 3, "1"), "3");
   EXPECT_EQ(text("excess_events", 2.5, "1"), "2.5") << "a median of counts";
   EXPECT_EQ(text("path_ratio", 1.3456, "1"), "1.35");

@@ -52,7 +52,7 @@ const std::vector<Failure>& failures() {
       {"ThirteenBesideAtTheRightForce",
        kTouch,
        "L1",
-       {{"in_band_share", kNone}, {"path_ratio", kNone}, {"wrong_places", 13}, {"time_s", 120}},
+       {{"object_in_band_share", kNone}, {"path_ratio", kNone}, {"wrong_places", 13}, {"time_s", 120}},
        {{"WRONG_PLACE", 13}},
        0,
        Kind::kBeside,
@@ -61,7 +61,7 @@ const std::vector<Failure>& failures() {
       {"ThirteenBesideAndOneTouchLetGo",
        kTouch,
        "L1",
-       {{"in_band_share", 0.08}, {"wrong_places", 13}, {"time_s", 120}},
+       {{"object_in_band_share", 0.08}, {"wrong_places", 13}, {"time_s", 120}},
        {{"TARGET_TOUCHED", 1, Severity::kInfo}, {"WRONG_PLACE", 13}},
        0,
        Kind::kBeside,
@@ -70,7 +70,7 @@ const std::vector<Failure>& failures() {
       {"OneBesideIsNoExcuseForTheForce",
        kTouch,
        "L1",
-       {{"in_band_share", 0.4}, {"wrong_places", 1}},
+       {{"object_in_band_share", 0.4}, {"wrong_places", 1}},
        {{"WRONG_PLACE", 1}},
        -1,
        Kind::kGate,
@@ -82,7 +82,7 @@ const std::vector<Failure>& failures() {
       {"ForceOfSeveralBands",
        kTouch,
        "L3",
-       {{"in_band_share", 0.2}},
+       {{"object_in_band_share", 0.2}},
        {},
        -1,
        Kind::kGate,
@@ -94,7 +94,7 @@ const std::vector<Failure>& failures() {
       {"NothingTouched",
        kTouch,
        "L1",
-       {{"in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", 120}},
+       {{"object_in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", 120}},
        {},
        0,
        Kind::kNotTried,
@@ -104,7 +104,7 @@ const std::vector<Failure>& failures() {
       {"NothingTouchedAndNoBar",
        kTouch,
        "L3",
-       {{"in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", 120}},
+       {{"object_in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", 120}},
        {},
        0,
        Kind::kNotTried,
@@ -114,7 +114,7 @@ const std::vector<Failure>& failures() {
       {"TooHardBesideTheDiscs",
        kTouch,
        "L1",
-       {{"in_band_share", kNone}, {"path_ratio", kNone}, {"wrong_places", 7}, {"excess_events", 5}},
+       {{"object_in_band_share", kNone}, {"path_ratio", kNone}, {"wrong_places", 7}, {"excess_events", 5}},
        {{"WRONG_PLACE", 7}, {"EXCESS_FORCE", 5, Severity::kMajor}},
        0,
        Kind::kGate,
@@ -153,7 +153,7 @@ const std::vector<Failure>& failures() {
       {"Slow",
        kTouch,
        "L2",
-       {{"time_s", 126}, {"in_band_share", 0.7}, {"wrong_places", 1}},
+       {{"time_s", 126}, {"object_in_band_share", 0.7}, {"wrong_places", 1}},
        {},
        -1,
        Kind::kLoss,
@@ -222,7 +222,7 @@ const std::vector<Failure>& failures() {
       {"NoBlockGripped",
        kGrasp,
        "L1",
-       {{"grip_window_share", kNone}, {"objects_done_share", 0}, {"time_s", 150}},
+       {{"object_grip_window_share", kNone}, {"objects_done_share", 0}, {"time_s", 150}},
        {},
        0,
        Kind::kNotTried,
@@ -231,7 +231,7 @@ const std::vector<Failure>& failures() {
       {"NoBlockLifted",
        kGrasp,
        "L1",
-       {{"grip_window_share", kNone}, {"objects_done_share", 0}, {"time_s", 150}},
+       {{"object_grip_window_share", kNone}, {"objects_done_share", 0}, {"time_s", 150}},
        {{"GRASPED", 2, Severity::kInfo}, {"REGRASP", 9}},
        0,
        Kind::kNotTried,
@@ -240,7 +240,7 @@ const std::vector<Failure>& failures() {
       {"HeldTooLightly",
        kGrasp,
        "L1",
-       {{"grip_window_share", 0.5}},
+       {{"object_grip_window_share", 0.5}},
        {{"SLIP", 5}, {"CRUSH", 1, Severity::kMajor}},
        -1,
        Kind::kGate,
@@ -250,7 +250,7 @@ const std::vector<Failure>& failures() {
       {"HeldTooHard",
        kGrasp,
        "L2",
-       {{"grip_window_share", 0.5}},
+       {{"object_grip_window_share", 0.5}},
        {{"CRUSH", 1, Severity::kMajor}},
        -1,
        Kind::kGate,
@@ -381,7 +381,8 @@ class EndsTest : public ::testing::Test {
 };
 
 TEST_F(EndsTest, TimeThatRanOutBeforeTheClockBeganIsNoFailureOfForce) {
-  AttemptResult result = graded(touch_, "L1", {{"in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", kNone}});
+  AttemptResult result =
+      graded(touch_, "L1", {{"object_in_band_share", kNone}, {"path_ratio", kNone}, {"time_s", kNone}});
   result.grade.status = AttemptStatus::kTimeout;
   put_caps(result, touch_, 0, 13);
   const auto [facts, next] = said(result);
@@ -392,7 +393,7 @@ TEST_F(EndsTest, TimeThatRanOutBeforeTheClockBeganIsNoFailureOfForce) {
 }
 
 TEST_F(EndsTest, TheGateThatWasHiddenByThePlacesIsStillSaid) {
-  AttemptResult result = graded(touch_, "L1", {{"in_band_share", 0.08}, {"wrong_places", 13}, {"time_s", 120}});
+  AttemptResult result = graded(touch_, "L1", {{"object_in_band_share", 0.08}, {"wrong_places", 13}, {"time_s", 120}});
   result.events = {event(2, "START")};
   result.grade.status = AttemptStatus::kTimeout;
   put_caps(result, touch_, 0, 13);
@@ -406,7 +407,7 @@ TEST_F(EndsTest, AnOpenedDeadmanIsNamed) {
   result.grade.status = AttemptStatus::kVoid;
   result.events = {event(2, "START"), event(9, "DEADMAN_OPEN", Severity::kMajor)};
   const auto [facts, next] = said(result);
-  EXPECT_EQ(facts.reason, "The deadman was opened while the clock ran: the attempt is void, and it does not count.");
+  EXPECT_EQ(facts.reason, "The deadman was opened while the clock ran: the attempt is void, and counts as not passed.");
   EXPECT_EQ(next, "Try next: keep the deadman closed until the clock stops.");
 }
 

@@ -252,7 +252,7 @@ TEST_P(DebriefLayout, NothingIsCutAndNothingCollides) {
       std::to_string(width_) + "x" + std::to_string(height_) + "-" + std::to_string(static_cast<int>(100 * scale_));
   const Exercise grasp = shipped_exercise("limited-grasp"), reach = shipped_exercise("reach-and-orient");
   AttemptResult crushed =
-      graded(grasp, "L1", {{"crushed", 3}, {"grip_window_share", 0.41}, {"objects_done_share", 0.5}});
+      graded(grasp, "L1", {{"crushed", 3}, {"object_grip_window_share", 0.41}, {"objects_done_share", 0.5}});
   crushed.events = {event(2, "START"), event(30.2, "CRUSH", Severity::kCritical, 1.9, "N"), event(58, "DONE")};
   testing_support::put_caps(crushed, grasp, 3, 6);
   AttemptResult reached = graded(reach, "exam", {{"time_s", 80}, {"angle_error_deg", 5.2}});

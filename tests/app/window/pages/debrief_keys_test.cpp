@@ -57,7 +57,8 @@ class DebriefKeys : public testing_support::LoopBench {
   }
   /// Pressed too hard and too long: not passed.
   AttemptResult failed(const std::string& level = "L1") const {
-    AttemptResult result = graded(touch_, level, {{"excess_events", 4}, {"in_band_share", 0.72}, {"time_s", 61.5}});
+    AttemptResult result =
+        graded(touch_, level, {{"excess_events", 4}, {"object_in_band_share", 0.72}, {"time_s", 61.5}});
     result.events = testing_support::pressing_events();
     testing_support::put_caps(result, touch_);
     return result;

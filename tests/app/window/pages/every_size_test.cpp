@@ -215,8 +215,8 @@ TEST_P(EverySize, AfterARun) {
   open();
   for (const double touched : {0.62, 0.8, 0.91})
     stored(bench_.options().database,
-           graded(touch, "L1", {{"in_band_share", touched}, {"time_s", 103.7}, {"path_ratio", 1.31}}), touch, "T-1",
-           ++board);
+           graded(touch, "L1", {{"object_in_band_share", touched}, {"time_s", 103.7}, {"path_ratio", 1.31}}), touch,
+           "T-1", ++board);
   const std::string failed = stored(bench_.options().database, heavy_run(touch), touch, "T-1", ++board, recording);
   const std::string passed = stored(bench_.options().database, good_run(touch), touch, "T-1", ++board, recording);
   for (const auto& [uuid, page] : {std::pair{failed, "debrief-not-yet"}, {passed, "debrief-passed"}}) {

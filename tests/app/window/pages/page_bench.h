@@ -67,16 +67,20 @@ inline std::string stored(const std::filesystem::path& database, AttemptResult r
 
 /// A run of somebody who pressed too hard and too long, with a past to compare with.
 inline AttemptResult heavy_run(const Exercise& exercise) {
-  AttemptResult result = graded(
-      exercise, "L1",
-      {{"excess_events", 4}, {"in_band_share", 0.72}, {"time_s", 61.5}, {"path_ratio", 1.52}, {"wrong_places", 1}});
+  AttemptResult result = graded(exercise, "L1",
+                                {{"excess_events", 4},
+                                 {"object_in_band_share", 0.72},
+                                 {"time_s", 61.5},
+                                 {"path_ratio", 1.52},
+                                 {"wrong_places", 1}});
   result.events = pressing_events();
   put_caps(result, exercise);
   return result;
 }
 
 inline AttemptResult good_run(const Exercise& exercise) {
-  AttemptResult result = graded(exercise, "L1", {{"in_band_share", 0.91}, {"time_s", 44.2}, {"path_ratio", 1.31}});
+  AttemptResult result =
+      graded(exercise, "L1", {{"object_in_band_share", 0.91}, {"time_s", 44.2}, {"path_ratio", 1.31}});
   result.events = pressing_events();
   return result;
 }
@@ -86,12 +90,15 @@ inline DebriefPast some_past(const AttemptResult& result) {
   for (int n = 0; n < 6; ++n)
     past.own.push_back(past_run(result, n, 60 + 4 * n, n > 3,
                                 {{"time_s", 70.0 - 3 * n},
-                                 {"in_band_share", 0.6 + 0.03 * n},
+                                 {"object_in_band_share", 0.6 + 0.03 * n},
                                  {"excess_events", 5.0 - n},
                                  {"path_ratio", 1.7 - 0.05 * n},
                                  {"wrong_places", n % 3}}));
-  past.expert = {
-      {"time_s", 37.1}, {"in_band_share", 0.97}, {"excess_events", 0}, {"path_ratio", 1.12}, {"wrong_places", 0}};
+  past.expert = {{"time_s", 37.1},
+                 {"object_in_band_share", 0.97},
+                 {"excess_events", 0},
+                 {"path_ratio", 1.12},
+                 {"wrong_places", 0}};
   return past;
 }
 

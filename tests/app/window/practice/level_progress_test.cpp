@@ -43,9 +43,13 @@ TEST(PassesInARow, AnAttemptThatWasLeftEndsTheRow) {
   EXPECT_EQ(passes_in_a_row({attempt(1, true), attempt(2, false, "aborted"), attempt(3, true)}), 1);
 }
 
-TEST(PassesInARow, WhatTheDeviceEndedDoesNotCount) {
-  EXPECT_EQ(
-      passes_in_a_row({attempt(1, true), attempt(2, false, "fault"), attempt(3, false, "void"), attempt(4, true)}), 2);
+TEST(PassesInARow, WhatEndedBeforeItsClockBeganDoesNotCount) {
+  for (const char* status : {"fault", "void"}) {
+    AttemptSummary ended = attempt(2, false, status);
+    EXPECT_EQ(passes_in_a_row({attempt(1, true), ended, attempt(4, true)}), 1) << "it can be brought about";
+    ended.begun = false;
+    EXPECT_EQ(passes_in_a_row({attempt(1, true), ended, attempt(4, true)}), 2);
+  }
   EXPECT_EQ(passes_in_a_row({attempt(9, false, "running"), attempt(4, true)}), 1);
 }
 
@@ -62,6 +66,26 @@ TEST(LevelProgressOf, FirstLevelIsOpenTheNextWaitsForThreePasses) {
   const std::vector<AttemptSummary> three{attempt(1, true), attempt(2, true), attempt(3, true)};
   EXPECT_TRUE(level_progress(e, "L2", three).unlocked);
   EXPECT_FALSE(level_progress(e, "L3", three).unlocked) << "passes at L1 open L2, not L3";
+}
+
+TEST(LevelProgressOf, AnEditedRubricOpensNothing) {
+  Exercise e = with_levels();
+  e.rubric.sha256 = "own";
+  e.former_rubrics = {{"version 1", "2026-11-27"}};
+  struct Row {
+    const char *rubric, *started_utc;
+    bool counts;
+  };
+  for (const Row& row : {Row{"own", "2027-01-01T00:00:00Z", true},
+                         {"version 1", "2026-11-26T23:59:59Z", true},
+                         {"version 1", "2026-11-27T00:00:00Z", false},
+                         {"pass_at = 5", "2026-11-01T00:00:00Z", false},
+                         {"", "", false}}) {
+    std::vector<AttemptSummary> three{attempt(1, true), attempt(2, true), attempt(3, true)};
+    for (AttemptSummary& one : three) one.rubric_sha256 = row.rubric, one.started_utc = row.started_utc;
+    EXPECT_EQ(level_progress(e, "L2", three).unlocked, row.counts) << row.rubric << row.started_utc;
+    EXPECT_EQ(level_progress(e, "L1", three).passed_in_a_row, row.counts ? 3 : 0) << row.rubric << row.started_utc;
+  }
 }
 
 TEST(LevelProgressOf, KeepsLevelsApartAndKnowsBestAndLast) {

@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+"""Makes the score of an attempt again from what `trocar export traces` wrote, and compares.
+
+Shares no code with Trocar: written after docs/scoring.md, with the standard library alone.
+
+    rescore.py FOLDER...        each with trace.csv, events.csv, context.json, rubric.json, result.json
+
+Ends with 1 where a metric, a sub-score or the score differs by more than 1e-9.
+"""
+
+import bisect
+import csv
+import json
+import math
+import pathlib
+import sys
+
+TOLERANCE = 1e-9
+RISE_GRACE_S = 0.5
+ACTING = ("completed", "timeout")
+
+
+# -- Reading -----------------------------------------------------------------------------------------------------------
+
+def number(text):
+    return float(text) if text else math.nan
+
+
+def rows(file):
+    with open(file, newline="", encoding="utf-8") as lines:
+        yield from csv.DictReader(lines)
+
+
+def vector(row, name, unit):
+    return tuple(number(row[f"{name}_{axis}_{unit}"]) for axis in "xyz")
+
+
+class Attempt:
+    def __init__(self, folder):
+        folder = pathlib.Path(folder)
+        self.context = json.loads((folder / "context.json").read_text())
+        self.rubric = json.loads((folder / "rubric.json").read_text())
+        self.result = json.loads((folder / "result.json").read_text())
+        self.rate_hz = self.result["device"]["rate_hz"]
+        events = [dict(t=number(r["t_s"]), type=r["type"], severity=r["severity"], object=int(r["object"]),
+                       value=number(r["value"])) for r in rows(folder / "events.csv")]
+        samples = [dict(t=number(r["t_s"]), tip=vector(r, "tip", "m"), force=math.hypot(*vector(r, "force", "n")),
+                        grip=number(r["grip_n"])) for r in rows(folder / "trace.csv")]
+        # Only what lies between START and DONE or TIMEOUT is graded.
+        start = next((e["t"] for e in events if e["type"] == "START"), None)
+        end = next((e["t"] for e in events if start is not None and e["type"] in ("DONE", "TIMEOUT")
+                    and e["t"] >= start), math.inf)
+        graded = start is not None
+        self.events = [e for e in events if graded and start <= e["t"] <= end]
+        self.samples = [s for s in samples if graded and start <= s["t"] <= end]
+        self.times = [s["t"] for s in self.samples]
+        self.seconds = (samples[-1]["t"] if math.isinf(end) else end) - start if graded else None
+
+    def count(self, *types):
+        return sum(e["type"] in types for e in self.events)
+
+
+# -- The filter: butterworth2-zero-phase-10hz, taken at 100 Hz ---------------------------------------------------------
+
+def low_pass(signal, rate_hz, cutoff_hz):
+    """2nd-order Butterworth, bilinear with pre-warping, forwards and backwards. The ends are extended by odd reflection
+    over three periods of the cut-off; the filter starts in the steady state of its first value."""
+    if len(signal) < 2 or cutoff_hz >= 0.45 * rate_hz:
+        return signal
+    pad = min(len(signal) - 1, math.ceil(3 * rate_hz / cutoff_hz))
+    x = ([2 * signal[0] - v for v in signal[pad:0:-1]] + signal +
+         [2 * signal[-1] - v for v in signal[-2:-2 - pad:-1]])
+    k = math.tan(math.pi * cutoff_hz / rate_hz)
+    norm = 1 / (1 + math.sqrt(2) * k + k * k)
+    b0 = k * k * norm
+    b1, b2, a1, a2 = 2 * b0, b0, 2 * (k * k - 1) * norm, (1 - math.sqrt(2) * k + k * k) * norm
+
+    def once(values):
+        s1, s2 = (1 - b0) * values[0], (b2 - a2) * values[0]
+        out = []
+        for v in values:
+            y = b0 * v + s1
+            s1, s2 = b1 * v - a1 * y + s2, b2 * v - a2 * y
+            out.append(y)
+        return out
+
+    x = once(once(x)[::-1])[::-1]
+    return x[pad:pad + len(signal)]
+
+
+def resample(times, values, rate_hz):
+    """On a uniform grid, linear between neighbours."""
+    out, i = [], 0
+    for k in range(math.floor((times[-1] - times[0]) * rate_hz + 1e-6) + 1):
+        t = times[0] + k / rate_hz
+        while i + 2 < len(times) and times[i + 1] <= t:
+            i += 1
+        share = min(1.0, max(0.0, (t - times[i]) / (times[i + 1] - times[i])))
+        out.append(values[i] + share * (values[i + 1] - values[i]))
+    return out
+
+
+def path_length(attempt):
+    if len(attempt.samples) < 2:
+        return None
+    axes = []
+    for axis in range(3):
+        fine = low_pass(resample(attempt.times, [s["tip"][axis] for s in attempt.samples], attempt.rate_hz),
+                        attempt.rate_hz, 10)
+        axes.append(resample([i / attempt.rate_hz for i in range(len(fine))], fine, min(100, attempt.rate_hz)))
+    points = list(zip(*axes))
+    return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
+
+
+def ideal_length(context):
+    """From each waypoint up by the retract height, across, down to the next; the first leg starts in the air."""
+    up = [context["retract_height_m"] * c for c in context["approach"]]
+    points = context["waypoints"]
+    total = 0.0
+    for i, (a, b) in enumerate(zip(points, points[1:])):
+        from_ = a if i == 0 else [p + u for p, u in zip(a, up)]
+        over = [p + u for p, u in zip(b, up)]
+        total += (0 if i == 0 else context["retract_height_m"]) + math.dist(from_, over) + context["retract_height_m"]
+    return total
+
+
+# -- Metrics -----------------------------------------------------------------------------------------------------------
+
+def frozen_spans(attempt):
+    """From CLUTCH or PORT_HOLD to INSTRUMENT_FREE."""
+    spans, since = [], None
+    for e in attempt.events:
+        if since is None and e["type"] in ("CLUTCH", "PORT_HOLD"):
+            since = e["t"]
+        if since is not None and e["type"] == "INSTRUMENT_FREE":
+            spans.append((since, e["t"]))
+            since = None
+    return spans + ([(since, attempt.times[-1])] if since is not None else [])
+
+
+def mean_share(attempt, judged):
+    """judged: (object, time, seconds, force, (low, high)). Time in the band counts up to the context's hold."""
+    spans, seconds = frozen_spans(attempt), {}
+    for obj, t, w, force, (low, high) in judged:
+        times = seconds.setdefault(obj, [0.0, 0.0])
+        if not low <= force <= high:
+            times[1] += w
+        elif not any(a <= t < b for a, b in spans):
+            times[0] += w
+    most = attempt.context.get("counted_hold_s", 0)
+    if most == 0:  # recorded before it was kept
+        return None
+    shares = [min(i, most) / (min(i, most) + o) for i, o in seconds.values() if min(i, most) + o > 0]
+    return sum(shares) / len(shares) if shares else None
+
+
+def pooled_share(judged):
+    """As rubrics of version 1 had it: all objects together."""
+    judged = list(judged)
+    whole = sum(w for _, _, w, _, _ in judged)
+    return sum(w for _, _, w, force, (low, high) in judged if low <= force <= high) / whole if whole > 0 else None
+
+
+def pressing(attempt):
+    t = attempt.times
+    weight = [0.0] * len(t)
+    for i in range(1, len(t)):
+        half = (t[i] - t[i - 1]) / 2
+        weight[i] += half
+        weight[i - 1] += half
+    context = attempt.context
+    bands = context.get("object_bands") or [[context["band_low_n"], context["band_high_n"]]]
+    judged, seen = [], set()
+    for i, e in enumerate(attempt.events):
+        if e["type"] != "TARGET_TOUCHED" or e["object"] in seen:
+            continue
+        seen.add(e["object"])
+        to = next((o["t"] for o in attempt.events[i:] if o["type"] == "TARGET_HELD" and o["object"] == e["object"]),
+                  t[-1])
+        at = max(0, e["object"])
+        band = bands[at] if at < len(bands) else bands[0]
+        is_open = False
+        for k in range(bisect.bisect_left(t, e["t"]), len(t)):
+            if t[k] > to:
+                break
+            force = attempt.samples[k]["force"]
+            is_open = is_open or force >= band[0] or t[k] >= e["t"] + RISE_GRACE_S
+            if is_open:
+                judged.append((e["object"], t[k], weight[k], force, band))
+    return judged
+
+
+def carrying(attempt):
+    windows, t = attempt.context.get("grip_windows", []), attempt.times
+    judged = []
+    for i, e in enumerate(attempt.events):
+        if e["type"] != "LIFTED" or not 0 <= e["object"] < len(windows):
+            continue
+        to = next((o["t"] for o in attempt.events[i:] if o["type"] == "SET_DOWN" and o["object"] == e["object"]), t[-1])
+        for k in range(1, len(t)):
+            if e["t"] < t[k] <= to:
+                judged.append((e["object"], t[k], t[k] - t[k - 1], attempt.samples[k]["grip"], windows[e["object"]]))
+    return judged
+
+
+def matched_in_time_share(attempt):
+    late, done = set(), set()
+    for e in attempt.events:
+        if e["type"] == "TARGET_TIMEOUT":
+            late.add(e["object"])
+        if e["type"] == "TARGET_HELD" and e["object"] not in late:
+            done.add(e["object"])
+    return len(done) / attempt.context["objects_total"]
+
+
+def mean_value(attempt, kind, factor=1.0):
+    values = [e["value"] for e in attempt.events if e["type"] == kind]
+    return factor * (sum(values) / len(values)) if values else None
+
+
+def path_ratio(attempt):
+    length, ideal = path_length(attempt), ideal_length(attempt.context)
+    return length / ideal if length and ideal > 0 else None
+
+
+METRICS = {
+    "time_s": lambda a: a.seconds,
+    "wrong_places": lambda a: a.count("WRONG_PLACE"),
+    "excess_events": lambda a: a.count("EXCESS_FORCE", "GRIP_EXCESS"),
+    "path_ratio": path_ratio,
+    "object_in_band_share": lambda a: mean_share(a, pressing(a)),
+    "object_grip_window_share": lambda a: mean_share(a, carrying(a)),
+    "in_band_share": lambda a: pooled_share(pressing(a)),
+    "grip_window_share": lambda a: pooled_share(carrying(a)),
+    "crushed": lambda a: a.count("CRUSH"),
+    "block_regrasps": lambda a: a.count("REGRASP"),
+    "objects_done_share": lambda a: a.context["objects_done"] / a.context["objects_total"],
+    "matched_in_time_share": matched_in_time_share,
+    "position_error_m": lambda a: mean_value(a, "POSITION_ERROR"),
+    "angle_error_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+}
+
+
+# -- The score ---------------------------------------------------------------------------------------------------------
+
+def score(attempt):
+    """@return score, {sub-score: (metric's value, share)}"""
+    rubric, context = attempt.rubric, attempt.context
+    if context["outcome"] not in ACTING or attempt.result["status"] == "void":
+        return None, {}  # nothing is graded: left, ended by the device, or its record or pacing is unfit
+    parts, total, most = {}, 0.0, 100.0
+    for rule in rubric["subscores"]:
+        if rule["metric"] not in METRICS:
+            raise SystemExit(f"this program does not know the metric {rule['metric']}")
+        raw = METRICS[rule["metric"]](attempt)
+        share = 0.0 if raw is None else (raw - rule["zero_at"]) / (rule["full_at"] - rule["zero_at"])
+        share = min(1.0, max(0.0, share))
+        parts[rule["name"]] = (raw, share)
+        total += rule["weight"] * share
+        if rule["gate"] and share < rule["gate_below"]:
+            most = min(most, rubric["gate_cap"])
+    if any(e["severity"] == "critical" for e in attempt.events):
+        most = min(most, rubric["critical_cap"])
+    if context["outcome"] == "timeout" or context["objects_done"] < context["objects_total"]:
+        most = min(most, rubric["unfinished_cap"] * context["objects_done"] / context["objects_total"])
+    return min(100 * total, most), parts
+
+
+def differs(a, b):
+    return (a is None) != (b is None) or (a is not None and abs(a - b) > TOLERANCE)
+
+
+def main(folders):
+    wrong = 0
+    for folder in folders:
+        attempt = Attempt(folder)
+        made, parts = score(attempt)
+        told = attempt.result["score"]
+        if differs(made, told):
+            wrong += 1
+            print(f"{folder}: score {made}, Trocar says {told}")
+        for part in attempt.result["subscores"]:
+            raw, share = parts.get(part["name"], (None, None))
+            for what, own, theirs in (("value", raw, part["raw"]), ("share", share, part["value"])):
+                if differs(own, theirs):
+                    wrong += 1
+                    print(f"{folder}: {part['name']}, {what}: {own}, Trocar says {theirs}")
+        print(f"{folder}: {'no score' if made is None else f'{made:.6f}'}")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1:]))
