@@ -199,7 +199,7 @@ std::string StrictTable::choice(const std::string& key, const std::vector<std::s
   return word;
 }
 
-std::vector<std::string> StrictTable::words(const std::string& key, std::size_t most,
+std::vector<std::string> StrictTable::texts(const std::string& key, std::size_t most,
                                             const std::function<std::string(const std::string&)>& refusal) {
   const toml::node& value = required(*node_->table, node_->file, node_->asked, key);
   const toml::array* array = value.as_array();
@@ -216,7 +216,7 @@ std::vector<std::string> StrictTable::words(const std::string& key, std::size_t 
 
 std::vector<std::string> StrictTable::choices(const std::string& key, const std::vector<std::string>& allowed,
                                               std::size_t most) {
-  return words(key, most, [&](const std::string& word) { return choice_refusal(key, word, allowed); });
+  return texts(key, most, [&](const std::string& word) { return choice_refusal(key, word, allowed); });
 }
 
 std::string StrictTable::choice_or(const std::string& key, const std::vector<std::string>& allowed,

@@ -44,7 +44,7 @@ class StrictTable {
   /// Array of one to `most` of the allowed words.
   std::vector<std::string> choices(const std::string& key, const std::vector<std::string>& allowed, std::size_t most);
   /// Array of one to `most` texts. @param refusal why one is none; "" where it is
-  std::vector<std::string> words(const std::string& key, std::size_t most,
+  std::vector<std::string> texts(const std::string& key, std::size_t most,
                                  const std::function<std::string(const std::string&)>& refusal);
   /// Array of three numbers, each in [low, high].
   Vec3 vector(const std::string& key, double low, double high);

@@ -109,7 +109,7 @@ Json device(const RunReport& run_report) {
 
 }  // namespace
 
-nlohmann::ordered_json rubric_json(const Rubric& rubric) {
+std::string rubric_json(const Rubric& rubric) {
   Json subscores = Json::array();
   for (const SubscoreRule& rule : rubric.subscores) {
     const MetricDefinition* metric = find_metric(rule.metric);
@@ -122,10 +122,11 @@ nlohmann::ordered_json rubric_json(const Rubric& rubric) {
                          {"gate", rule.gate},
                          {"gate_below", rule.gate ? Json(rule.gate_below) : Json()}});
   }
-  return {
+  const Json json = {
       {"pass_at", rubric.pass_at},   {"proficient_at", rubric.proficient_at}, {"expert_at", rubric.expert_at},
       {"gate_cap", rubric.gate_cap}, {"critical_cap", rubric.critical_cap},   {"unfinished_cap", rubric.unfinished_cap},
       {"subscores", subscores}};
+  return json.dump(2);
 }
 
 std::string attempt_json(const AttemptResult& result) {

@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "scenarios/scoring/attempt_result.h"
 #include "scenarios/scoring/rubric.h"
 
@@ -14,7 +12,7 @@ namespace trocar {
 /// stands under "attempt" alone, so that two outputs can be compared without it.
 std::string attempt_json(const AttemptResult& result);
 
-/// Sub-scores with weights and anchors, caps and pass marks, as they hold at a level.
-nlohmann::ordered_json rubric_json(const Rubric& rubric);
+/// Sub-scores with weights and anchors, caps and pass marks, as they hold at a level. One JSON object, indented.
+std::string rubric_json(const Rubric& rubric);
 
 }  // namespace trocar

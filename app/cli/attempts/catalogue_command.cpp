@@ -40,7 +40,7 @@ Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
     json["position_tolerance_m"] = level.position_tolerance_m;
     json["angle_tolerance_rad"] = level.angle_tolerance_rad;
   }
-  json["rubric"] = rubric_json(level.rubric);
+  json["rubric"] = Json::parse(rubric_json(level.rubric));
   return json;
 }
 

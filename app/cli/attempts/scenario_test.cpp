@@ -47,7 +47,7 @@ RunOptions read_run(StrictTable table, const std::filesystem::path& file) {
   if (const std::string plant = table.text_or("plant", ""); !plant.empty()) run.plant = beside(file, plant);
   table.allow("inject");
   if (table.has("inject"))
-    run.injections = table.words("inject", kMostInjections, [](const std::string& text) -> std::string {
+    run.injections = table.texts("inject", kMostInjections, [](const std::string& text) -> std::string {
       try {
         parse_injection(text);
         return "";
@@ -110,10 +110,10 @@ void read_expect(StrictTable table, const ExerciseLevel& level, ScenarioTest& te
   for (const SubscoreRule& rule : level.rubric.subscores) subscores.push_back(rule.name);
   if (table.has("metrics")) test.metrics = read_values(table.tables("metrics"), metrics);
   if (table.has("subscores")) test.subscores = read_values(table.tables("subscores"), subscores);
+  table.finish();
   if (!test.status && !test.fault && !test.passed && !test.score && !test.caps && test.events.empty() &&
       test.metrics.empty() && test.subscores.empty())
     table.fail("status", "[expect] expects nothing: such a test cannot fail");
-  table.finish();
 }
 
 std::string number_words(double value) {

@@ -123,8 +123,8 @@ int write_traces(Database& database, const ExportChoice& choice, PendingExport& 
     write_trace_csv(rebuild_trace(recording.ticks, recording.rate_hz), folder.file(at + "trace.csv"));
     write_events_csv(recording.events, folder.file(at + "events.csv"));
     folder.file(at + "context.json") << recording.end->summary_json << '\n';
-    folder.file(at + "rubric.json")
-        << rubric_json(rubric_for(find_level(exercise, recorded.setup.level), recorded.daq)).dump(2) << '\n';
+    folder.file(at + "rubric.json") << rubric_json(rubric_for(find_level(exercise, recorded.setup.level), recorded.daq))
+                                    << '\n';
     folder.file(at + "exercise.toml") << exercise.text;
     folder.file(at + "result.json") << attempt_json(attempt);
   });

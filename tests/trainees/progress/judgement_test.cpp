@@ -111,7 +111,8 @@ TEST(Judgements, EvidenceSaysTheNumbers) {
   EXPECT_EQ(judged(kShown + "fff")[0].evidence,
             "competence was shown at attempt 14; failures reached 2.7 (alarm at 2.0) at attempt 17");
   EXPECT_EQ(judged("vPdP")[0].evidence,
-            "of the last 4 attempts 1 void or ended by the device, 1 with a late loop or force that was not rendered");
+            "of the last 4 attempts 1 void or ended by the device, 1 switched off in the run, with a late loop or "
+            "force that was not rendered");
   EXPECT_EQ(judged(kShown)[0].evidence, "competence shown at attempt 14 of 14, reliability 0.90; a person decides");
   EXPECT_EQ(judged("PPf")[0].evidence, "2 of 3 attempts passed; evidence 0.0 of 2.5");
 }

@@ -183,7 +183,7 @@ TEST_F(DebriefFactsTest, EndsWithoutAGradeAreHonestPages) {
   result.device.fault_channel = 2;
   const DebriefFacts fault = said(AttemptStatus::kFault);
   EXPECT_EQ(fault.verdict, "DEVICE STOPPED");
-  EXPECT_NE(fault.reason.find("not your doing"), std::string::npos);
+  EXPECT_NE(fault.reason.find("passes in a row begin anew"), std::string::npos);
   ASSERT_EQ(fault.more.size(), 1u);
   EXPECT_NE(fault.more[0].find("encoder-jump on channel 2"), std::string::npos) << fault.more[0];
   for (const auto status : {AttemptStatus::kAborted, AttemptStatus::kVoid, AttemptStatus::kFault}) {

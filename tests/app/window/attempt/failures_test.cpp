@@ -86,7 +86,7 @@ const std::vector<Failure>& failures() {
        {},
        -1,
        Kind::kGate,
-       "Force in band: 20 %; a pass needs at least 35 %.",
+       "Force in band: 20 %; a pass needs at least 40 %.",
        "In the band for 20 % of the pressing time. "
        "Try next: press into the band in one go and then keep still until the disc is done.",
        "In the band for 20 % of the pressing time. "
