@@ -22,6 +22,7 @@ const std::string kIdle =
     "[run]\n"
     "exercise = \"reach-and-orient\"\n"
     "hand = \"idle\"\n"
+    "inject = [\"encoder-jump:2@1\"]\n"  // over after a second
     "[expect]\n";
 
 class ScenarioTests : public testing::Test {
@@ -92,10 +93,10 @@ TEST_F(ScenarioTests, SayWhatCameOtherwise) {
 }
 
 TEST_F(ScenarioTests, RefuseWhatCouldNotFailOrIsMisspelled) {
-  EXPECT_NE(refusal("").find(":5:1: [expect] expects nothing: such a test cannot fail"), std::string::npos);
+  EXPECT_NE(refusal("").find(":6:1: [expect] expects nothing: such a test cannot fail"), std::string::npos);
   EXPECT_NE(refusal("stauts = \"void\"\n").find("did you mean 'status'?"), std::string::npos);
-  EXPECT_NE(refusal("status = \"viod\"\n").find(":6:10: "), std::string::npos);
-  EXPECT_NE(refusal("score = [90, 80]\n").find(":6:9: 'score' must be [low, high]"), std::string::npos);
+  EXPECT_NE(refusal("status = \"viod\"\n").find(":7:10: "), std::string::npos);
+  EXPECT_NE(refusal("score = [90, 80]\n").find(":7:9: 'score' must be [low, high]"), std::string::npos);
   EXPECT_NE(refusal("[[expect.events]]\ntype = \"CRUHS\"\ncount = [0, 0]\n").find("did you mean 'CRUSH'?"),
             std::string::npos);
   EXPECT_NE(refusal("[[expect.metrics]]\nname = \"tiem_s\"\nbetween = [0, 1]\n").find("did you mean 'time_s'?"),
@@ -106,7 +107,7 @@ TEST_F(ScenarioTests, RefuseWhatCouldNotFailOrIsMisspelled) {
 }
 
 TEST_F(ScenarioTests, AreRunAsAFolderWithOneLineEachAndXmlForCi) {
-  file("status = \"timeout\"\nscore = [0, 0]\n", "good.test.toml");
+  file("status = \"fault\"\nfault = \"encoder-jump\"\n", "good.test.toml");
   file("passed = true\n", "fails.test.toml");
   std::filesystem::create_directory(folder_ / "deeper");
   folder_.write("deeper/bad.test.toml", "name = \"<bad> & more\"\n");
