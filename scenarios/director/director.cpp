@@ -86,8 +86,7 @@ void Director::State::wait_for_start(const StylusState& state, double dt_s) {
   const bool active = state.loop == LoopState::kActive;
   if (active) {
     waiting_s += dt_s;
-    const bool inside =
-        !state.clutched && !state.port_held && (state.X_TI.p - board.start_T).norm() <= exercise.start_sphere_m;
+    const bool inside = !frozen(state) && (state.X_TI.p - board.start_T).norm() <= exercise.start_sphere_m;
     in_start_s = inside && status.phase == Phase::kArmed ? in_start_s + dt_s : 0;
     status.phase = inside ? Phase::kArmed : Phase::kReady;
     if (inside && in_start_s >= exercise.start_hold_s - 1e-9) {

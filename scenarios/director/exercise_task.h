@@ -10,6 +10,7 @@
 
 #include "haptics/exchange/stylus_state.h"
 #include "scenarios/director/director.h"
+#include "scenarios/director/threshold_monitor.h"
 #include "scenarios/exercise.h"
 
 namespace trocar {
@@ -23,6 +24,9 @@ struct EventLog {
   void add(EventType type, Severity severity, std::int32_t object = -1, double value = 0, const std::string& unit = "");
 };
 
+/// Clutch or port make the instrument stand still, whatever the hand does.
+inline bool frozen(const StylusState& stylus) { return stylus.clutched || stylus.port_held; }
+
 /// What a part is told each period.
 struct TaskInput {
   const StylusState& stylus;
@@ -30,8 +34,12 @@ struct TaskInput {
   double dt_s = 0;
   bool too_hard = false;  ///< contact above the hard limit, not yet eased off
 
-  /// Clutch or port make the instrument stand still, whatever the hand does: nothing is held in that time.
-  bool frozen() const { return stylus.clutched || stylus.port_held; }
+  /// A period of a hold, which begins anew where the instrument stands still. @return true once it is complete
+  bool held(HoldTimer& hold, bool inside) const {
+    if (!frozen(stylus)) return hold.update(inside, dt_s);
+    hold.reset();
+    return false;
+  }
 };
 
 class ExerciseTask {

@@ -32,7 +32,7 @@ void SafetyWatch::update(const StylusState& state, double dt_s, std::int32_t obj
     log.add(event_type::kDeviceLimit, Severity::kInfo, object, state.rendered_force_T.norm(), "N");
   if (state.clutched && !clutched_) log.add(event_type::kClutch, Severity::kInfo, object);
   if (state.port_held && !held_) log.add(event_type::kPortHold, Severity::kMinor, object, state.depth_in_port_m, "m");
-  if (state.clutched || state.port_held) {
+  if (frozen(state)) {
     frozen_s_ += dt_s;
   } else if (clutched_ || held_) {
     log.add(event_type::kInstrumentFree, Severity::kInfo, object, std::exchange(frozen_s_, 0), "s");

@@ -48,10 +48,8 @@ void PoseTask::update(const TaskInput& input, EventLog& log) {
   const Target& pen = pens_[static_cast<std::size_t>(object())];
   position_error_m_ = (input.stylus.X_TI.p - pen.centre_T).norm();
   angle_error_rad_ = rotation_between(input.stylus.X_TI.R, pen.R_TI);
-  const bool inside =
-      !input.frozen() && position_error_m_ <= position_tolerance_m_ && angle_error_rad_ <= angle_tolerance_rad_;
-  if (input.frozen()) hold_.reset();
-  const bool complete = hold_.update(inside, input.dt_s);
+  const bool inside = position_error_m_ <= position_tolerance_m_ && angle_error_rad_ <= angle_tolerance_rad_;
+  const bool complete = input.held(hold_, inside);
   if (hold_.progress() >= kSettled) {
     judged_s_ += input.dt_s;
     position_sum_ += position_error_m_ * input.dt_s;

@@ -73,9 +73,8 @@ void DiscTask::update(const TaskInput& input, EventLog& log) {
   free_s_ = touching_ ? 0 : free_s_ + dt_s;
   const double force = state.F_I_T.force.norm();
   const WantedForce& band = targets_[static_cast<std::size_t>(index_)].band;
-  if (input.frozen()) hold_.reset();
-  const bool wanted = on_disc_ && !input.frozen() && force >= band.low_n && force <= band.high_n;
-  if (!hold_.update(wanted, dt_s)) return;
+  const bool wanted = on_disc_ && force >= band.low_n && force <= band.high_n;
+  if (!input.held(hold_, wanted)) return;
   log.add(event_type::kTargetHeld, Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
   ++index_;
   light(log);

@@ -40,8 +40,7 @@ void SqueezeTask::update(const TaskInput& input, EventLog& log) {
     ++excess_count_;
     log.add(event_type::kGripExcess, Severity::kMajor, object_, grip, "N");
   }
-  if (input.frozen()) hold_.reset();
-  if (!hold_.update(!input.frozen() && grip >= task_.low_n && grip <= task_.high_n, dt_s)) return;
+  if (!input.held(hold_, grip >= task_.low_n && grip <= task_.high_n)) return;
   finished_ = true;
   log.add(event_type::kGripHeld, Severity::kInfo, object_, log.t_s - offered_at_s_, "s");
 }
