@@ -1,9 +1,6 @@
 #include "app/cli/attempts/scenario_test.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "haptics/input_error.h"
@@ -17,12 +14,6 @@ namespace {
 
 constexpr double kMost = 1e9;
 constexpr std::size_t kMostInjections = 16;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A name, or a file beside the test.
 std::string beside(const std::filesystem::path& test, const std::string& name) {
@@ -147,7 +138,7 @@ class Comparison {
 }  // namespace
 
 ScenarioTest read_scenario_test(const std::filesystem::path& file, const AssetRoots& assets) {
-  StrictTable document = StrictTable::parse(bytes_of(file), file.string());
+  StrictTable document = StrictTable::parse(read_text_file(file.string()), file.string());
   ScenarioTest test;
   test.file = file;
   test.name = document.text("name");
