@@ -16,6 +16,7 @@ void show_cue(const DirectorStatus& status, Percept& percept) {
   percept.band_high_n = demand.band.high_n;
   percept.object = demand.object;
   percept.goal_T = demand.goal_T;
+  percept.shown_share = status.exposure;
   percept.foam = demand.foam;
   percept.foam_count = demand.foam_count;
 }

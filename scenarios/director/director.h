@@ -7,6 +7,7 @@
 // void. Knows nothing else of the device. Deterministic: same states in, same events out.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <memory>
 #include <string>
@@ -32,13 +33,22 @@ struct Target {
   Mat3 R_TI = Mat3::Identity();  ///< pen: wanted orientation of the instrument
 };
 
+/// A ball of other stiffness in tissue that gives way: it is felt and not seen.
+struct HiddenNodule {
+  Vec3 centre_T = Vec3::Zero();  ///< while the organ is at rest
+  double radius_m = 0;
+  double stiffness_ratio = 1;  ///< of its shear modulus to that of what is round it
+};
+
 /// Targets of one board, drawn by the board number as the exercise's kind lays them out.
 struct Board {
-  Vec3 centre_T = Vec3::Zero();  ///< centre of the region on the surface
-  Vec3 start_T = Vec3::Zero();   ///< centre of the start sphere
-  std::vector<Target> targets;   ///< discs, pens, or the rings in which blocks shall stand
-  RigidScene rigid;              ///< board, blocks, ring marks, port; empty on an organ
-  double spacing_m = 0;          ///< least distance that the targets were laid out with; 0 where none was asked
+  Vec3 centre_T = Vec3::Zero();       ///< centre of the region on the surface
+  Vec3 start_T = Vec3::Zero();        ///< centre of the start sphere
+  std::vector<Target> targets;        ///< discs, pens, or the rings in which blocks shall stand
+  RigidScene rigid;                   ///< board, blocks, ring marks, port; empty on an organ
+  std::vector<Vec3> wire_T;           ///< centre line from end to end; empty without
+  std::vector<HiddenNodule> nodules;  ///< empty without
+  double spacing_m = 0;               ///< least distance that the targets were laid out with; 0 where none was asked
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };
@@ -55,10 +65,12 @@ struct Demand {
   double angle_tolerance_rad = 0;
   WantedForce band;            ///< of contact force, or of grip while the cue asks to grip; 0 to 0: not told
   SeenObject object = {};      ///< to pick, carry and place
-  Vec3 goal_T = Vec3::Zero();  ///< where it shall stand
+  Vec3 goal_T = Vec3::Zero();  ///< where it shall stand, or to where tissue shall be lifted
   std::array<FoamLore, kMostFoams> foam = {};
   std::int32_t foam_count = 0;
 };
+
+inline constexpr int kMostMarks = 8;
 
 /// What screen, hand and session see of the exercise at this moment.
 struct DirectorStatus {
@@ -74,6 +86,10 @@ struct DirectorStatus {
   int wrong_places = 0, excess_forces = 0;
   int timeouts = 0;                                  ///< objects not done in their time
   double position_error_m = 0, angle_error_rad = 0;  ///< to the lit pen
+  double horizon_rad = 0;                            ///< camera: roll of the picture against the theatre's up
+  double exposure = 0;                               ///< retract: share of the hidden place that is to be seen, 0 to 1
+  std::array<Vec3, kMostMarks> marks_T = {};         ///< palpate: places that were marked ...
+  int mark_count = 0;                                ///< ... so many
   double peak_force_n = 0;
   GripBlock grip;             ///< between the jaws now
   std::string message, hint;  ///< toast, empty when none

@@ -27,6 +27,12 @@ HandJob task_of(const Percept& percept) {
     case Cue::kCarry:
     case Cue::kPlace:
       return {HandJob::Kind::kBlock, percept.target_index};
+    case Cue::kSearch:
+      return {HandJob::Kind::kSearch, -1};
+    case Cue::kTake:
+    case Cue::kLift:
+    case Cue::kLower:
+      return {HandJob::Kind::kLift, percept.target_index};
     case Cue::kNone:
       break;
   }

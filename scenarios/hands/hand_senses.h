@@ -24,7 +24,17 @@ class LateSignal {
 
 /// What the person is busy with; reaching, pressing and easing off one disc are one task.
 struct HandJob {
-  enum class Kind : std::uint8_t { kNothing, kStart, kDisc, kPen, kGrip, kBlock, kFinished } kind = Kind::kNothing;
+  enum class Kind : std::uint8_t {
+    kNothing,
+    kStart,
+    kDisc,
+    kPen,
+    kGrip,
+    kBlock,
+    kSearch,
+    kLift,
+    kFinished
+  } kind = Kind::kNothing;
   std::int32_t target = -1;
   bool operator==(const HandJob&) const = default;
 };

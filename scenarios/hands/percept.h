@@ -13,7 +13,8 @@ namespace trocar {
 
 /// What the exercise asks for at this moment, as the screen shows it.
 /// kOrient: bring the tip to the target and turn the instrument as it shows; kPick, kCarry, kPlace: take the object at
-/// the target, bring it there, set it down there.
+/// the target, bring it there, set it down there. kSearch: feel for what is hidden, mark it by a long pinch. kTake,
+/// kLift, kLower: take tissue at the target, lift it towards the goal and hold it there, let it down.
 enum class Cue : std::uint8_t {
   kNone,
   kWait,
@@ -25,7 +26,11 @@ enum class Cue : std::uint8_t {
   kOrient,
   kPick,
   kCarry,
-  kPlace
+  kPlace,
+  kSearch,
+  kTake,
+  kLift,
+  kLower
 };
 
 /// An object that the exercise is about, as it is seen on the screen.
@@ -64,7 +69,8 @@ struct Percept {
   double shown_force_n = 0;                ///< reading of the force bar; NaN when the bar is hidden
   double shown_grip_n = 0;     ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
   SeenObject object;           ///< kPick, kCarry, kPlace: the lit object (delayed)
-  Vec3 goal_T = Vec3::Zero();  ///< there: where it shall stand
+  Vec3 goal_T = Vec3::Zero();  ///< there: where it shall stand; kLift: to where the tissue shall come
+  double shown_share = 0;      ///< kLift: how much of what lies behind is to be seen, 0 to 1 (delayed)
   std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
   std::int32_t foam_count = 0;
 };

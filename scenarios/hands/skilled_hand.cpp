@@ -143,6 +143,8 @@ void SkilledHand::begin_task(const Percept& percept) {
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
       step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
+    case HandJob::Kind::kSearch:
+    case HandJob::Kind::kLift:
     case HandJob::Kind::kNothing:
       step_ = Step::kStill;
   }

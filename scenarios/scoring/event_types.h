@@ -39,6 +39,14 @@ inline constexpr EventType kPositionError{"POSITION_ERROR"}, kAngleError{"ANGLE_
 inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET_DOWN"}, kSlip{"SLIP"}, kCrush{"CRUSH"},
     kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"}, kGrasped{"GRASPED"},
     kWrongBlock{"WRONG_BLOCK"}, kRemoved{"REMOVED"};
+// Camera
+inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_LOST"};
+// Wire
+inline constexpr EventType kWireTouched{"WIRE_TOUCHED"}, kRingOff{"RING_OFF"};
+// Palpate
+inline constexpr EventType kNoduleFound{"NODULE_FOUND"}, kFalseMark{"FALSE_MARK"}, kSearchEnded{"SEARCH_ENDED"};
+// Retract
+inline constexpr EventType kTissueTaken{"TISSUE_TAKEN"}, kExposed{"EXPOSED"}, kCovered{"COVERED"}, kLetGo{"LET_GO"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 
@@ -50,7 +58,9 @@ inline constexpr EventType kAll[] = {
     kThrow,         kTargetLit,   kTargetHeld,    kTargetTouched, kWrongPlace,     kGripTouched, kGripExcess,
     kGripHeld,      kGripOffered, kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
     kSetDown,       kSlip,        kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
-    kGrasped,       kWrongBlock,  kRemoved,       kMarked,        kMessage};
+    kGrasped,       kWrongBlock,  kRemoved,       kWallContact,   kHorizonLost,    kWireTouched, kRingOff,
+    kNoduleFound,   kFalseMark,   kSearchEnded,   kTissueTaken,   kExposed,        kCovered,     kLetGo,
+    kMarked,        kMessage};
 
 }  // namespace event_type
 }  // namespace trocar
