@@ -51,7 +51,10 @@ double LateSignal::update(double value, double dt_s) {
 }
 
 void HandSenses::update(const Percept& percept, double pause_s, double dt_s) {
-  const double felt = percept.felt_force_T.dot(percept.target_normal_T);
+  const bool pulls = percept.cue == Cue::kLift || percept.cue == Cue::kLower;  // then what is held pulls the other way
+  if (pulls != pulls_) free_n_ = -free_n_;
+  pulls_ = pulls;
+  const double felt = (pulls ? -1 : 1) * percept.felt_force_T.dot(percept.target_normal_T);
   const double touch = touch_.update(felt, dt_s);
   if (gets_used_) free_n_ += (touch - free_n_) * std::min(1.0, dt_s / kUsedTime);
   const bool bar = percept.foam_count > 0 && std::isfinite(percept.shown_grip_n);

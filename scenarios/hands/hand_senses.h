@@ -64,6 +64,7 @@ class HandSenses {
   double free_n_ = 0;     ///< what the arm's weight and friction make the fingers feel
   double missing_n_ = 0;  ///< what the bar has shown more than the fingers felt
   bool gets_used_ = true, knows_bar_ = false;
+  bool pulls_ = false;  ///< what is felt is tissue that is held, not tissue that is pressed
 };
 
 }  // namespace trocar

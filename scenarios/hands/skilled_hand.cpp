@@ -53,6 +53,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight, kInVain}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv, 0, kInVain}),
       blocks_(skill_),
+      tissue_(skill_),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
 }
@@ -133,8 +134,11 @@ void SkilledHand::begin_task(const Percept& percept) {
     case HandJob::Kind::kDisc:
       return reach_target(percept, true);
     case HandJob::Kind::kBlock:
-      block_intent_ = {{intent_R_, intent_T_}, jaw_m_};
-      return blocks_.begin(percept, block_intent_, random_);
+      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
+      return blocks_.begin(percept, job_intent_, random_);
+    case HandJob::Kind::kLift:
+      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
+      return tissue_.begin(percept, job_intent_, random_);
     case HandJob::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
       opened_ = false;
@@ -144,7 +148,6 @@ void SkilledHand::begin_task(const Percept& percept) {
       step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
     case HandJob::Kind::kSearch:
-    case HandJob::Kind::kLift:
     case HandJob::Kind::kNothing:
       step_ = Step::kStill;
   }
@@ -217,12 +220,15 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
 
-HandIntent SkilledHand::move_block(const Percept& percept, double dt_s) {
-  blocks_.update(percept, senses_, dt_s, block_intent_, random_);
-  intent_T_ = block_intent_.X_TI.p;
-  intent_R_ = block_intent_.X_TI.R;
-  jaw_m_ = block_intent_.jaw_opening_m;
-  HandIntent intent = block_intent_;
+HandIntent SkilledHand::move_job(const Percept& percept, double dt_s) {
+  if (task_.kind == HandJob::Kind::kLift)
+    tissue_.update(percept, senses_, dt_s, job_intent_, random_);
+  else
+    blocks_.update(percept, senses_, dt_s, job_intent_, random_);
+  intent_T_ = job_intent_.X_TI.p;
+  intent_R_ = job_intent_.X_TI.R;
+  jaw_m_ = job_intent_.jaw_opening_m;
+  HandIntent intent = job_intent_;
   intent.X_TI.p += tremor(time_s_);
   return intent;
 }
@@ -244,18 +250,18 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
     is_ready_ = percept.device_ready;
     intent_T_ = ready_.p;
     intent_R_ = ready_.R;
-    block_intent_.X_TI = ready_;
+    job_intent_.X_TI = ready_;
     return {ready_, jaw_m_};
   }
   time_s_ += dt_s;
   in_step_s_ += dt_s;
-  senses_.set_used_to_it(step_ != Step::kPress);
+  senses_.set_used_to_it(step_ != Step::kPress && !(task_.kind == HandJob::Kind::kLift && tissue_.touches()));
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
-  if (task_.kind == HandJob::Kind::kBlock) return move_block(attend(percept), dt_s);
+  if (task_.kind == HandJob::Kind::kBlock || task_.kind == HandJob::Kind::kLift) return move_job(attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};

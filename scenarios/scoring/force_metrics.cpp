@@ -210,12 +210,16 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
   if (bands.empty()) bands.push_back({context.band_low_n, context.band_high_n});
   const auto windows = windows_between(events, event_type::kTargetTouched, event_type::kTargetHeld, end, bands);
   BandTimes of_objects{FrozenTimes(events, end)};
+  double judged_s = 0, hard_s = 0;
   each_judged(trace.samples, windows, force_of,
               [&](const BandWindow& window, const TraceSample& sample, double w, double value) {
                 of_objects.add(window, sample.t_s, w, value);
+                judged_s += w;
+                if (value > context.hard_force_n) hard_s += w;
               });
   sink.push_back({"in_band_share", in_band_share(trace.samples, windows, force_of), "1"});
   sink.push_back({"object_in_band_share", of_objects.mean_share(context.counted_hold_s), "1"});
+  sink.push_back({"hard_force_share", judged_s > 0 ? Value(hard_s / judged_s) : std::nullopt, "1"});
   add_grip_metrics(trace.samples, events, context, sink);
   add_rendered_metrics(trace.samples, context, sink);
   add_honesty_metrics(trace.samples, sink);

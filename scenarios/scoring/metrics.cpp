@@ -91,6 +91,8 @@ constexpr MetricDefinition kCatalogue[] = {
     {"object_in_band_share", "1",
      "time in the wanted band, up to that of one hold, over it and the time out of the band; mean over objects",
      "mean over objects of min(in, hold) / (min(in, hold) + out)", kMore},
+    {"hard_force_share", "1", "share of the judged time in which the force is above the hard limit",
+     "time with |F| > hard limit / time in windows, all objects together", kLess, kForce},
     {"grip_max_n", "N", "largest grip force", "max G", kLess, kGrip},
     {"grip_mean_n", "N", "mean grip force while gripping", "mean of G above 0.05 N", kNeither, kGrip},
     {"grip_in_band_share", "1", "share of the squeezing time in which the grip is in the wanted band",
@@ -139,12 +141,16 @@ constexpr MetricDefinition kCatalogue[] = {
     {"drops", "1", "times that a block fell", "count of DROP", kLess, kErrors},
     {"misplaced", "1", "times that a carried block was set down outside its ring", "count of MISPLACED", kLess,
      kErrors},
+    {"time_to_expose_s", "s", "until tissue is lifted far enough to show what lies behind it, mean over places",
+     "mean of the first EXPOSED of each object", kLess, kTime},
+    {"holds_lost", "1", "times that lifted tissue slid, was let go too early or sank back",
+     "count of SLIP, LET_GO and COVERED", kLess, kErrors},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
 constexpr std::string_view kForceShares[] = {"soft_force_share",         "in_band_share", "object_in_band_share",
                                              "grip_in_band_share",       "excess_events", "grip_window_share",
-                                             "object_grip_window_share", "crushed"};
+                                             "object_grip_window_share", "crushed",       "hard_force_share"};
 
 }  // namespace
 
@@ -226,6 +232,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_pose_metrics(graded_events, context, metrics);
   add_rest_metric(trace, events, metrics);
   add_grasp_metrics(graded, graded_events, context, metrics);
+  add_retract_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

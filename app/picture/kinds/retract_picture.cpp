@@ -1,0 +1,61 @@
+#include "app/picture/kinds/hud_parts.h"
+#include "app/picture/kinds/kind_picture.h"
+#include "scenarios/kinds/retract/retract_rules.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kGoalRing = 0.016;  // m, across
+constexpr double kTellingHeld = 0.3;
+
+std::vector<ForceBar> retract_bars(const SessionView& view) {
+  const Exercise& exercise = view.scene.setup.exercise;
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  const JudgedForces limits = judged_forces(exercise, level, view.scene.board, status);
+  ForceBar pull =
+      force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n}, *limits.tip_n);
+  pull.peak_n = status.peak_force_n;
+  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n,
+                            {exercise.retract->grip_low_n, exercise.retract->grip_high_n}, *limits.grip_n);
+  if (level.force_display != "always") {
+    pull.hidden = grip.hidden = level.force_display == "after" || !status.force_shown;
+    pull.hidden_note = grip.hidden_note = hidden_note(level.force_display);
+  }
+  return {pull, grip};
+}
+
+/// The height to which the tissue shall come: a ring round where the tip shall be.
+void add_goal(const SessionView& view, std::vector<SceneObject>& out) {
+  const DirectorStatus& status = view.director.status();
+  if (status.cue != Cue::kTake && status.cue != Cue::kLift) return;
+  SceneObject ring;
+  ring.shape = SceneObject::Shape::kRing;
+  ring.style = status.cue == Cue::kLift ? SceneObject::Style::kGhostLit : SceneObject::Style::kGhost;
+  ring.size_m = {kGoalRing, kGoalRing, 0.001};
+  ring.X_TO.p = status.demand.goal_T;
+  out.push_back(ring);
+}
+
+}  // namespace
+
+KindPicture retract_picture() {
+  return {.kind = ExerciseKind::kRetract,
+          .steps =
+              [](const RunStage& run) {
+                return std::vector{hud_step("Take, lift and hold the tissue", run.targets, run.started && !run.targets),
+                                   hud_step("Let it down", run.done, run.targets && !run.done)};
+              },
+          .rows =
+              [](const Scene&, const DirectorStatus& status) {
+                return std::vector<HudRow>{{"Exposed", hud_number("%.0f", 100 * status.exposure), "%"},
+                                           {"Holds lost", std::to_string(status.wrong_places), "x"},
+                                           hold_row(status)};
+              },
+          .bars = retract_bars,
+          .add_objects = add_goal,
+          .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
+          .telling = [](const SessionView& view) { return view.director.status().hold_progress >= kTellingHeld; }};
+}
+
+}  // namespace trocar

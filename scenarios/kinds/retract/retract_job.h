@@ -1,0 +1,48 @@
+// How a simulated person retracts tissue: reach over the place with open jaws, look, press them down a little, close,
+// lift until enough is to be seen, keep the pull that is wanted, let down, let go, withdraw. What was lost, or closed
+// on nothing, is taken again, a little deeper.
+//
+// Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
+#pragma once
+
+#include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/hand.h"
+#include "scenarios/hands/hand_random.h"
+#include "scenarios/hands/hand_script.h"
+#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/minimum_jerk.h"
+
+namespace trocar {
+
+class RetractJob {
+ public:
+  explicit RetractJob(const HandSkill& skill);
+
+  /// A place is lit. @param intent what the hand wants at this moment.
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  /// One period: moves the intent.
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  /// What is felt is the tissue's, as far as the person knows, and not the arm's alone.
+  bool touches() const { return step_ >= Step::kDescend && step_ <= Step::kOpen; }
+
+ private:
+  enum class Step : std::uint8_t { kReach, kLook, kDescend, kClose, kSqueeze, kLift, kLower, kOpen, kRetreat };
+
+  void enter(Step step);
+  void reach(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void close(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void hold(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void leave(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
+  void squeeze(const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void give_up(const Percept& percept, const HandIntent& intent);
+
+  HandSkill skill_;
+  ForceGrip pull_, grip_;
+  ReachPlan plan_;
+  Step step_ = Step::kRetreat;
+  double in_step_s_ = 0, lost_s_ = 0, depth_m_ = 0;
+  int corrections_ = 0, tries_ = 0;
+};
+
+}  // namespace trocar

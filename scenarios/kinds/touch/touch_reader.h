@@ -1,0 +1,18 @@
+// What exercise files say of places and forces on an organ, for every kind that takes place on one.
+//
+// Errors as strict_toml.h. Thread: loading only.
+#pragma once
+
+#include "scenarios/exercise.h"
+#include "scenarios/files/level_keys.h"
+
+namespace trocar {
+
+/// [targets] of discs on an organ.
+void read_discs(StrictTable& table, TargetLayout& layout);
+/// [surface] of an organ that stands still.
+void read_surface(StrictTable table, Exercise& exercise);
+/// "band_n" or "bands_n" of a level.
+void read_bands(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level);
+
+}  // namespace trocar
