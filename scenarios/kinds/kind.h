@@ -24,7 +24,7 @@ struct DirectorStatus;  // the same
 struct LevelKeys;       // scenarios/files/level_keys.h
 struct TriangleSurface;
 
-/// The force that bars, plots, tones and the desk watch, but while a cue asks to grip: then it is the grip's.
+/// The force that bars, plots, tones and the desk watch, but while a cue asks to grip or take: then it is the grip's.
 enum class WatchedForce : std::uint8_t { kNone, kTip, kGrip };
 
 enum class ToolKind : std::uint8_t { kProbe, kGrasper };
@@ -76,6 +76,8 @@ JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&);
 JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&, const DirectorStatus&);
 /// The force that is judged now. Who is judged at which limit: judged_forces() of this.
 WatchedForce watched_now(const Exercise&, const DirectorStatus&);
+/// The force of the tip that is judged is the pull of tissue in the jaws, not a press.
+bool judges_pull(const Exercise&);
 /// May the progress of a hold be seen during the run? Where the force is hidden it would tell that it is right.
 bool hold_shown(const Exercise&, const ExerciseLevel&);
 

@@ -35,7 +35,13 @@ JudgedForces judged_forces(const Exercise& exercise, const ExerciseLevel& level,
 }
 
 WatchedForce watched_now(const Exercise& exercise, const DirectorStatus& status) {
-  return status.cue == Cue::kGrip ? WatchedForce::kGrip : kind_of(exercise).watched;
+  const bool grips = status.cue == Cue::kGrip || status.cue == Cue::kTake;
+  return grips ? WatchedForce::kGrip : kind_of(exercise).watched;
+}
+
+bool judges_pull(const Exercise& exercise) {
+  const KindDescription& kind = kind_of(exercise);
+  return kind.jaws_hold && kind.watched == WatchedForce::kTip;
 }
 
 bool hold_shown(const Exercise& exercise, const ExerciseLevel& level) {

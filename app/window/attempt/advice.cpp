@@ -5,6 +5,7 @@
 #include "app/window/attempt/debrief_reason.h"
 #include "app/window/attempt/metric_words.h"
 #include "app/window/attempt/number_words.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/event_types.h"
 
 namespace trocar {
@@ -64,6 +65,8 @@ std::string first_touch(const Advised& a) {
 }
 
 std::string not_tried_advice(const Advised& a) {
+  if (judges_pull(a.exercise))
+    return a.words("Try next: press the open jaws on the lit disc, close them, and lift until enough is exposed.");
   if (is_band_share(a.facts.cause.metric)) return first_touch(a);
   if (a.counts().grasped == 0) return a.words("Try next: go down with open jaws round the lit block, then close them.");
   return a.words("Try next: close the jaws until the block no longer slides, then lift it {0}.",
@@ -125,7 +128,13 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   const Translator& words = a.words;
   const std::string& m = row.metric;
   if (m == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
+  if (is_band_share(m) && judges_pull(a.exercise))
+    return words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.");
   if (is_band_share(m)) return in_band_advice(a);
+  if (m == "force_max_n") return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "grip_mean_n") return words("Try next: close the jaws only as far as the tissue no longer slides.");
+  if (m == "holds_lost") return words("Try next: grip before you lift, and keep the height until the time is over.");
+  if (m == "time_to_expose_s") return words("Try next: press the open jaws on, close, and lift at once.");
   if (m == "excess_events") return excess_advice(a);
   if (is_window_share(m))
     return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
@@ -181,6 +190,8 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "wrong_places")
     return words(row.raw == 1 ? "Once beside the disc." : "{0} times beside the disc.", {row.value});
   if (m == "excess_events") return count_of_force(a, row);
+  if (is_band_share(m) && judges_pull(a.exercise))
+    return words("In the band for {0} of the holding time.", {row.value});
   if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
   if (is_window_share(m)) return count_of_grip(a, row);
   if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});

@@ -79,7 +79,7 @@ DebriefFacts debrief_facts(const Translator& words, const AttemptResult& result,
   if (facts.score) add_rows(words, facts, result, level, past);
   facts.cause = cause_of(result, facts);
   facts.reason = reason_words(words, result, facts, exercise);
-  facts.more = further_words(words, result, facts);
+  facts.more = further_words(words, result, facts, exercise);
   return facts;
 }
 
@@ -117,7 +117,7 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kToolCollision) return words("Shaft pressed on tissue");
   if (type == event_type::kGripHeld) return words("Grip held");
   if (type == event_type::kCrush) return words("Block crushed");
-  if (type == event_type::kSlip) return words("Block slipped");
+  if (type == event_type::kSlip) return words("Slipped through the jaws");
   if (type == event_type::kDrop) return words("Block dropped");
   if (type == event_type::kLost) return words("Block lost");
   if (type == event_type::kPlaced) return words("Block placed");
@@ -125,6 +125,9 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kRegrasp) return words("Grasped again");
   if (type == event_type::kWrongBlock) return words("Wrong block");
   if (type == event_type::kRemoved) return words("Placed block taken away");
+  if (type == event_type::kExposed) return words("Lifted far enough");
+  if (type == event_type::kCovered) return words("Sank back");
+  if (type == event_type::kLetGo) return words("Let go too early");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

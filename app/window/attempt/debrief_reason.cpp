@@ -5,6 +5,7 @@
 #include "app/session/grading/device_words.h"
 #include "app/session/grading/realtime_report.h"
 #include "app/window/attempt/metric_words.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/event_types.h"
 
 namespace trocar {
@@ -61,8 +62,10 @@ std::string undone_words(const Translator& words, const AttemptResult& result, c
 }
 
 /// What was never done, so that this part has no value.
-std::string not_tried_words(const Translator& words, const DebriefRow& row, const EventCounts& counts) {
+std::string not_tried_words(const Translator& words, const DebriefRow& row, const EventCounts& counts,
+                            const Exercise& exercise) {
   const std::vector<std::string> part{words.made(row.subscore)};
+  if (judges_pull(exercise)) return words("Nothing was lifted far enough, so {0} cannot be judged.", part);
   if (is_band_share(row.metric)) return words("No disc was touched, so {0} cannot be judged.", part);
   if (is_window_share(row.metric))
     return counts.grasped == 0 ? words("No block was gripped, so {0} cannot be judged.", part)
@@ -70,8 +73,9 @@ std::string not_tried_words(const Translator& words, const DebriefRow& row, cons
   return words("Nothing was done that {0} could be judged by.", part);
 }
 
-std::string gate_words(const Translator& words, const DebriefRow& row, const EventCounts& counts) {
-  if (!row.raw) return not_tried_words(words, row, counts);
+std::string gate_words(const Translator& words, const DebriefRow& row, const EventCounts& counts,
+                       const Exercise& exercise) {
+  if (!row.raw) return not_tried_words(words, row, counts, exercise);
   return words("{0}: {1}; a pass needs {2}.", {row.name, row.value, row.needed});
 }
 
@@ -225,11 +229,11 @@ std::string reason_words(const Translator& words, const AttemptResult& result, c
     case Kind::kNotStarted:
       return words("Time ran out before the clock began: the tip did not rest in the ball at the start.");
     case Kind::kGate:
-      return gate_words(words, *row, facts.counts);
+      return gate_words(words, *row, facts.counts, exercise);
     case Kind::kBeside:
       return beside_words(words, *row);
     case Kind::kNotTried: {
-      const std::string said = not_tried_words(words, *row, facts.counts);
+      const std::string said = not_tried_words(words, *row, facts.counts, exercise);
       return left ? undone_words(words, result, *left) + " " + said : said;
     }
     case Kind::kUndone:
@@ -239,8 +243,8 @@ std::string reason_words(const Translator& words, const AttemptResult& result, c
   }
 }
 
-std::vector<std::string> further_words(const Translator& words, const AttemptResult& result,
-                                       const DebriefFacts& facts) {
+std::vector<std::string> further_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
+                                       const Exercise& exercise) {
   using Kind = DebriefCause::Kind;
   std::vector<std::string> out;
   if (!facts.score) {
@@ -256,7 +260,7 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
   const bool nothing_done = kind == Kind::kNotStarted;
   for (const DebriefRow& row : facts.rows)
     if (row.failed && row.subscore != facts.cause.subscore && !nothing_done)
-      out.push_back(gate_words(words, row, facts.counts));
+      out.push_back(gate_words(words, row, facts.counts, exercise));
   const bool said = kind == Kind::kUndone || kind == Kind::kNotTried || nothing_done;
   if (const Cap* left = undone(result.grade); left && !said) out.push_back(undone_words(words, result, *left));
   if (result.device.force_not_rendered())

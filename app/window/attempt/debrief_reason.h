@@ -16,7 +16,8 @@ std::string reason_words(const Translator& words, const AttemptResult& result, c
 /// What the reason left out: failed gates, what was undone, forces that the device could not give; why there is no
 /// score.
 /// @param facts with the reason.
-std::vector<std::string> further_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts);
+std::vector<std::string> further_words(const Translator& words, const AttemptResult& result, const DebriefFacts& facts,
+                                       const Exercise& exercise);
 
 /// Seconds of the exercise's clock at loop time t: from START, 0 before it.
 double clock_s(const AttemptResult& result, double t_s);

@@ -19,6 +19,7 @@ constexpr double kOver = 0.0025;      // m beside the middle of the lit block: t
 constexpr double kNear = 0.006;       // m: the tip settles over it while the hand rests
 constexpr double kNearRing = 0.008;   // m: so does what is carried, over the middle of its ring
 constexpr double kSticks = 0.3;       // of sideways movements, while a block is between the jaws or in its ring
+constexpr double kPressed = 0.008;    // m that open jaws are pressed on tissue that they shall take
 constexpr double kHangs = 0.002;      // m of a block over the board before it is let go: no fall
 enum GroundNumber : int {
   kStartGround = 1,
@@ -27,7 +28,9 @@ enum GroundNumber : int {
   kNearBlockGround = 200,
   kBlockGround = 300,
   kNearRingGround = 400,
-  kRingGround = 500
+  kRingGround = 500,
+  kPressGround = 600,
+  kLiftGround = 700
 };
 
 }  // namespace
@@ -82,12 +85,24 @@ struct Surroundings::State {
     return {kWorkGround, board, kOverBoard, {}, level};
   }
 
+  /// The place is gone down to by who stands over it, the jaws pressed on a little; what is held firmly is lifted to
+  /// where it shall be, and let down when that is over.
+  GlideGround tissue_ground(const DirectorStatus& status, const Vec3& tip_T) const {
+    const Demand& demand = status.demand;
+    const auto level = [](double z) { return [z](double, double) { return z; }; };
+    const double off_m = (demand.centre_T - tip_T).head<2>().norm();
+    if (status.cue == Cue::kLift) return {kLiftGround + status.target_index, level(demand.goal_T.z()), 0};
+    if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < kOver))
+      return {kPressGround + status.target_index, level(demand.centre_T.z()), -kPressed};
+    return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
+  }
+
   GlideGround ground_of(const DirectorStatus& status, const Vec3& tip_T) const {
     const auto level = [](double z) { return [z](double, double) { return z; }; };
     if (waits_for_start(status.phase)) return {kStartGround, level(scene.board.start_T.z()), 0};
     if (status.demand.oriented) return {kPenGround + status.target_index, level(status.demand.centre_T.z()), 0};
     if (!organ) return block_ground(status, tip_T);
-    return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
+    return tissue_ground(status, tip_T);
   }
 
   const Scene& scene;

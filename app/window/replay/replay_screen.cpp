@@ -23,7 +23,7 @@ constexpr double kLead_s = 1;
 std::optional<ForceBar> telling_bar(const Scene& scene, const RunMoment& moment) {
   const std::vector<ForceBar> bars = attempt_hud(view_of(scene, moment), attempt_camera(scene), "").bars;
   if (bars.empty()) return std::nullopt;
-  return moment.status.cue == Cue::kGrip ? bars.back() : bars.front();
+  return watched_now(scene.setup.exercise, moment.status) == WatchedForce::kGrip ? bars.back() : bars.front();
 }
 
 /// Whose run it is: the person's own, or whoever the recording says did it.

@@ -170,7 +170,8 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   if (guides)
     out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(out.plumb_T.value_or(out.tip_T));
   if (view.hud.bars.empty()) return out;
-  const ForceBar& bar = moment.status.cue == Cue::kGrip ? view.hud.bars.back() : view.hud.bars.front();
+  const ForceBar& bar = watched_now(scene.setup.exercise, moment.status) == WatchedForce::kGrip ? view.hud.bars.back()
+                                                                                                : view.hud.bars.front();
   if (bars && !bar.hidden) out.force = bar;
   return out;
 }

@@ -136,6 +136,7 @@ std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
   if (status.cue == Cue::kCarry || status.cue == Cue::kPlace)
     return {circle(board.targets.at(static_cast<std::size_t>(status.target_index)).centre_T, Vec3::UnitZ(),
                    view.scene.setup.exercise.grasp.ring_radius_m)};
+  if (status.cue == Cue::kLift) return {circle(d.goal_T, Vec3::UnitZ(), d.radius_m + kRoundDisc)};
   if (d.oriented)
     return {circle(d.centre_T, facing(d.centre_T), d.radius_m), {d.centre_T, d.centre_T - kPenLine * d.R_TI.col(2)}};
   return {circle(d.centre_T, d.normal_T, d.radius_m + kRoundDisc)};

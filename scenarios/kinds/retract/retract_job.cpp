@@ -108,7 +108,7 @@ void RetractJob::close(const Percept& percept, const HandSenses& senses, double 
 void RetractJob::hold(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                       HandRandom& random) {
   squeeze(senses, dt_s, intent, random);
-  const bool gone = senses.grip_n() < kTissueGripFelt / 2 || percept.cue == Cue::kTake;
+  const bool gone = senses.grip_n() < kTissueGripFelt / 2 || (step_ == Step::kLift && percept.cue == Cue::kTake);
   lost_s_ = gone ? lost_s_ + dt_s : 0;
   if (lost_s_ > kLostAfter + skill_.reaction_s) return give_up(percept, intent);
   if (step_ == Step::kLift) {

@@ -6,7 +6,7 @@
 namespace trocar {
 
 struct RetractRules {
-  double reach_m = 0;          ///< from a place: tissue that is taken further off does not count
+  double reach_m = 0;          ///< from the axis of a place: tissue that is taken further off does not count
   double exposed_share = 0;    ///< of the lift: from here on what lies behind is to be seen
   double too_hard_share = 0;   ///< of the hold above the hard limit, together: a critical error
   double grip_low_n = 0;       ///< wanted grip: it holds what is pulled ...

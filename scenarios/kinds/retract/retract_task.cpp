@@ -8,6 +8,7 @@ namespace trocar {
 namespace {
 
 constexpr double kTissueSlipFrom = 0.002;  // m of creep that count as a slip
+constexpr double kFirmFrom = 0.7;          // of the lowest wanted grip: from here on it can be lifted
 constexpr double kLiesDown = 0.3;          // of the exposure: lower than this the tissue may be let go
 constexpr double kCoveredBelow = 0.85;     // of what counts as exposed: breath comes and goes
 
@@ -26,14 +27,15 @@ void RetractTask::begin(EventLog& log) { light(log); }
 
 void RetractTask::light(EventLog& log) {
   lit_at_s_ = log.t_s;
-  holds_ = taken_ = exposed_ = judged_ = slipping_ = told_ = false;
+  holds_ = firm_ = taken_ = exposed_ = judged_ = slipping_ = told_ = false;
   held_s_ = hard_s_ = exposure_ = lifted_m_ = 0;
   if (!finished()) log.add(event_type::kTargetLit, Severity::kInfo, index_);
 }
 
 void RetractTask::follow_grip(const TaskInput& input, EventLog& log) {
   const TissueFrame& frame = *input.tissue;
-  const bool near = (input.stylus.X_TI.p - place().centre_T).norm() <= rules_.reach_m;
+  const Vec3 off = input.stylus.X_TI.p - place().centre_T;  // however deep the jaws were pressed
+  const bool near = (off - place().normal_T * place().normal_T.dot(off)).norm() <= rules_.reach_m;
   const bool holds = frame.held() && (holds_ || near);
   if (holds && !holds_) {
     const bool again = taken_;
@@ -48,6 +50,7 @@ void RetractTask::follow_grip(const TaskInput& input, EventLog& log) {
     ++lost_;
   }
   holds_ = holds;
+  firm_ = holds && (firm_ || input.stylus.grip_force_n >= kFirmFrom * rules_.grip_low_n);
   const bool creeps = holds && frame.grip == GripState::kSlipping;
   if (!creeps) slip_from_m_ = frame.slipped_m;
   if (creeps && !slipping_ && frame.slipped_m - slip_from_m_ > kTissueSlipFrom) {
@@ -79,7 +82,7 @@ void RetractTask::judge_pull(double force_n, double dt_s, EventLog& log) {
   if (force_n > hard_n_) hard_s_ += dt_s;
   if (told_ || hard_s_ <= rules_.too_hard_share * hold_s_) return;
   told_ = true;
-  log.add(event_type::kCriticalForce, Severity::kCritical, index_, hard_s_, "s");
+  log.add(event_type::kExcessForce, Severity::kCritical, index_, force_n, "N");
 }
 
 void RetractTask::update(const TaskInput& input, EventLog& log) {
@@ -129,7 +132,7 @@ void RetractTask::describe(const TaskInput& input, DirectorStatus& status) const
   status.demand.goal_T = from_T + Vec3(0, 0, lift_m_);
   status.demand.foam[0] = {0, rules_.grip_low_n, rules_.grip_high_n};
   status.demand.foam_count = 1;
-  status.cue = complete() ? Cue::kLower : holds_ ? Cue::kLift : Cue::kTake;
+  status.cue = complete() ? Cue::kLower : firm_ ? Cue::kLift : Cue::kTake;
   const double pull = input.stylus.F_I_T.force.norm();
   status.force_shown = force_shown(display_, holds_ && (pull < band_.low_n || pull > band_.high_n));
   describe_message(pull, status);

@@ -7,8 +7,8 @@
 // exposed, together; while clutch or port stand the instrument still no time counts. Events: TARGET_LIT; TISSUE_TAKEN
 // (grip, N), REGRASP after the first; EXPOSED (s since lit) each time that the lift becomes enough, COVERED (m of lift)
 // when it no longer is; TARGET_TOUCHED with the first EXPOSED, from when on the pull is judged; SLIP (m); LET_GO (m of
-// lift) before it lies down; TARGET_HELD (s since lit); CRITICAL_FORCE (s) for a pull above the hard limit over too
-// much of the hold. Frame T, SI units. Deterministic. Thread: the tissue task's.
+// lift) before it lies down; TARGET_HELD (s since lit); a critical EXCESS_FORCE (N) for a pull above the hard limit
+// over too much of the hold. Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <vector>
@@ -43,7 +43,8 @@ class RetractTask final : public ExerciseTask {
   std::string display_;
   double lift_m_, hold_s_, hard_n_;
   std::int32_t index_ = 0;
-  bool holds_ = false, taken_ = false, exposed_ = false, judged_ = false, slipping_ = false, told_ = false;
+  bool holds_ = false, firm_ = false, taken_ = false, exposed_ = false, judged_ = false, slipping_ = false,
+       told_ = false;
   double lit_at_s_ = 0, lifted_m_ = 0, exposure_ = 0, held_s_ = 0, hard_s_ = 0, slip_from_m_ = 0, taken_z_m_ = 0;
   int done_ = 0, lost_ = 0;
 };

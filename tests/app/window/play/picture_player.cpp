@@ -265,6 +265,32 @@ std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
   return {};
 }
 
+/// Over the disc, to which the tip then goes down by itself; squeeze until the bar is green; it is lifted, and what is
+/// lit is above; when the disc is lit again it has been let down: open.
+std::vector<InputEvent> PicturePlayer::retract(double t_s, const Glance& seen) {
+  switch (stage_) {
+    case Stage::kAim:
+      doing = "over the place";
+      if (way(*seen.foot, *seen.lit) > 4) return aim(t_s, *seen.foot, *seen.lit);
+      goal_ = seen.lit;
+      stage_ = Stage::kPress;
+      wait_until_s_ = t_s + 1.5;  // it goes down
+      return {};
+    case Stage::kPress: {
+      auto out = press(t_s, seen);
+      if (stage_ == Stage::kKeep) stage_ = Stage::kCarry;
+      return out;
+    }
+    case Stage::kCarry:
+      doing = "hold";
+      if (way(*goal_, *seen.lit) > kMoved_px) settled_s_ = t_s;
+      if (t_s - std::max(settled_s_, since_s_) > 3) stage_ = Stage::kLift;
+      return {};
+    default:
+      return press(t_s, seen);
+  }
+}
+
 /// By the dials: the place first, then the lean, then the roll.
 std::vector<InputEvent> PicturePlayer::reach(double t_s, const Glance& seen) {
   wait_until_s_ = t_s + kEye_s + 0.15;
@@ -307,6 +333,7 @@ std::vector<InputEvent> PicturePlayer::decide(double t_s, const Glance& seen) {
   if (!ball) ball_ = Spot{-1000, -1000};
   if (task_ == Task::kReach && !ball) return reach(t_s, seen);
   if (task_ == Task::kGrasp && !ball) return grasp(t_s, seen);
+  if (task_ == Task::kRetract && !ball) return retract(t_s, seen);
   const bool moved = goal_ && way(*goal_, *seen.lit) > kMoved_px;
   goal_ = seen.lit;
   if (moved && stage_ != Stage::kAim && stage_ != Stage::kLift) {

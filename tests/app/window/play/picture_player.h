@@ -35,7 +35,7 @@ class PicturePlayer {
   static constexpr double kEye_s = 0.3;
 
   /// What the briefing has taught.
-  enum class Task { kTouch, kReach, kGrasp };
+  enum class Task { kTouch, kReach, kGrasp, kRetract };
   PicturePlayer(PlayerHand& hand, Task task) : hand_(hand), task_(task) {}
   /// Whether it looks now: not while its hand moves, and not before what it has done can be seen.
   bool looks(double t_s) const;
@@ -53,6 +53,7 @@ class PicturePlayer {
     Glance seen;
   };
   std::vector<InputEvent> grasp(double t_s, const Glance& seen);
+  std::vector<InputEvent> retract(double t_s, const Glance& seen);
   std::vector<InputEvent> reach(double t_s, const Glance& seen);
 
   PlayerHand& hand_;

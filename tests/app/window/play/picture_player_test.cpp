@@ -102,6 +102,7 @@ constexpr int kShortTries = 3;
 TEST_F(PicturePlay, PassesReachAndOrient) { passes("E01", Task::kReach, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesSurfaceTouch) { passes("E02", Task::kTouch, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesLimitedGrasp) { passes("E03", Task::kGrasp, kShortTries, 7, InputKind::kMouse); }
+TEST_F(PicturePlay, PassesRetractAndHold) { passes("E09", Task::kRetract, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesSurfaceTouchByKeys) { passes("E02", Task::kTouch, kShortTries, 7, InputKind::kKeyboard); }
 TEST_F(PicturePlay, PassesReachAndOrientByPad) { passes("E01", Task::kReach, kShortTries, 7, InputKind::kPad); }
 
@@ -118,6 +119,8 @@ class PictureSweep : public PicturePlay, public ::testing::WithParamInterface<In
 TEST_P(PictureSweep, SurfaceTouchWithinFive) { passes_within("E02", Task::kTouch, 5); }
 TEST_P(PictureSweep, ReachAndOrientWithinFifteen) { passes_within("E01", Task::kReach, 15); }
 TEST_P(PictureSweep, LimitedGraspWithinFifteen) { passes_within("E03", Task::kGrasp, 15); }
+
+TEST_P(PictureSweep, RetractAndHoldWithinFifteen) { passes_within("E09", Task::kRetract, 15); }
 
 INSTANTIATE_TEST_SUITE_P(By, PictureSweep, ::testing::Values(InputKind::kMouse, InputKind::kKeyboard, InputKind::kPad),
                          [](const auto& one) { return std::string(input_name(one.param)); });
