@@ -20,7 +20,8 @@ constexpr double kNear = 0.006;       // m: the tip settles over it while the ha
 constexpr double kNearRing = 0.008;   // m: so does what is carried, over the middle of its ring
 constexpr double kSticks = 0.3;       // of sideways movements, while a block is between the jaws or in its ring
 constexpr double kPressed = 0.008;    // m that open jaws are pressed on tissue that they shall take
-constexpr double kHangs = 0.002;      // m of a block over the board before it is let go: no fall
+constexpr double kOnDisc = 0.8, kLeavesDisc = 1.6;  // of its radius: the tip goes down to it, and up again
+constexpr double kHangs = 0.002;                    // m of a block over the board before it is let go: no fall
 enum GroundNumber : int {
   kStartGround = 1,
   kWorkGround = 2,
@@ -92,7 +93,8 @@ struct Surroundings::State {
     const auto level = [](double z) { return [z](double, double) { return z; }; };
     const double off_m = (demand.centre_T - tip_T).head<2>().norm();
     if (status.cue == Cue::kLift) return {kLiftGround + status.target_index, level(demand.goal_T.z()), 0};
-    if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < kOver))
+    const double near = demand.radius_m * (ground.number == kPressGround + status.target_index ? kLeavesDisc : kOnDisc);
+    if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < near))
       return {kPressGround + status.target_index, level(demand.centre_T.z()), -kPressed};
     return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
   }

@@ -51,7 +51,7 @@ void RetractTask::follow_grip(const TaskInput& input, EventLog& log) {
   }
   holds_ = holds;
   firm_ = holds && (firm_ || input.stylus.grip_force_n >= kFirmFrom * rules_.grip_low_n);
-  const bool creeps = holds && frame.grip == GripState::kSlipping;
+  const bool creeps = holds && !complete() && frame.grip == GripState::kSlipping;
   if (!creeps) slip_from_m_ = frame.slipped_m;
   if (creeps && !slipping_ && frame.slipped_m - slip_from_m_ > kTissueSlipFrom) {
     slipping_ = true;

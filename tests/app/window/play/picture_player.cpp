@@ -271,7 +271,8 @@ std::vector<InputEvent> PicturePlayer::retract(double t_s, const Glance& seen) {
   switch (stage_) {
     case Stage::kAim:
       doing = "over the place";
-      if (way(*seen.foot, *seen.lit) > 4) return aim(t_s, *seen.foot, *seen.lit);
+      if (way(*seen.foot, *seen.lit) > 0.25 * seen.lit_wide)
+        return aim(t_s, *seen.foot, *seen.lit);  // it moves with the breath
       goal_ = seen.lit;
       stage_ = Stage::kPress;
       wait_until_s_ = t_s + 1.5;  // it goes down
