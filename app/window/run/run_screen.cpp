@@ -77,6 +77,7 @@ struct RunScreen::State {
   void begin(PracticeModel& model);
   void steer(PracticeModel& model);
   void command(Action action, PracticeModel& model);
+  const RunMoment& shown_moment(PracticeModel& model) const;
   Camera seen_by(PracticeModel& model) const;
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
@@ -133,8 +134,16 @@ void RunScreen::State::begin(PracticeModel& model) {
   begun = true;
 }
 
+/// What is shown of the run: nothing has been seen of it yet, or it is not ready, the instrument where it comes in.
+const RunMoment& RunScreen::State::shown_moment(PracticeModel& model) const {
+  const AttemptRunner& run = *model.running();
+  return run.newest().seen && (run.ready() || run.scene().loop.daq.motors) ? run.newest() : before;
+}
+
 /// Where the scope is now; until the person has taken hold, where the exercise has it.
 Camera RunScreen::State::seen_by(PracticeModel& model) const {
+  const Scene& scene = model.running()->scene();
+  if (is_scope(scene.setup.exercise)) return attempt_camera(view_of(scene, shown_moment(model)));
   return moved_camera(camera, steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
 }
 
@@ -164,6 +173,10 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   out.tip_T = view.X_TI.p;
   if (hold_shown(scene.setup.exercise, scene.level)) out.held = moment.status.hold_progress;
   out.lit_T = lit_outline(view_of(scene, moment), view.camera);
+  if (is_scope(scene.setup.exercise)) {  // the tip is the lens: what is held is round the sphere
+    out.tip_T = moment.status.demand.object.X_TO.p;
+    return out;
+  }
   const StylusState& stylus = moment.record.stylus;
   const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
   if (carries) out.plumb_T = moment.status.demand.object.X_TO.p;
@@ -188,7 +201,7 @@ std::string RunScreen::State::to_start(const Translator& words, const Scene& sce
 SceneView RunScreen::State::view(PracticeModel& model) {
   AttemptRunner& run = *model.running();
   const RunMoment& newest = run.newest();
-  const RunMoment& moment = newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
+  const RunMoment& moment = shown_moment(model);
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, model.sound());
   SceneView out = attempt_view(view_of(run.scene(), moment),
@@ -199,7 +212,7 @@ SceneView RunScreen::State::view(PracticeModel& model) {
   if (play != Play::kAttempt) leave_out_grading(out.hud);
   if (steering && tutorial) teach(moment, model);
   if (!guides) hide_guides(out);
-  if (steering) add_ghost(out, run.target());
+  if (steering && !is_scope(run.scene().setup.exercise)) add_ghost(out, run.target());
   guide = steering ? guide_at(run.scene(), out, moment) : TipGuide{};
   if (steering && waits_for_start(moment.status.phase))
     guide.to_go = to_start(model.words(), run.scene(), moment.record.stylus.X_TI.p);
@@ -304,7 +317,8 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeModel& model, int width, i
   out.view = s.view(model);
   s.seen = out.view.camera;
   s.lay_out(out.view.hud, model, width, height);
-  s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
+  const bool scope = is_scope(model.running()->scene().setup.exercise);
+  s.rim = scope ? std::nullopt : rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
   s.lit_rim = s.guide.lit_T.empty() ? std::nullopt : rim_angle(out.view.camera, s.picture, middle_of(s.guide.lit_T));
   out.x = s.picture.x;
   out.y = s.picture.y;
