@@ -15,7 +15,7 @@ using Style = SceneObject::Style;
 
 constexpr double kScopeField = 72;       // deg, of the round field's diameter
 constexpr double kRingBefore = 0.012;    // m from the lens: before everything that is looked at
-constexpr double kRingWire = 0.00007;    // m
+constexpr double kRingWire = 0.00018;    // m
 constexpr double kStem = 0.005;          // m, diameter
 constexpr double kTellingView = 0.5;     // of a hold
 const Vec3 kCupGrey(0.36, 0.37, 0.38), kStemGrey(0.22, 0.23, 0.24);
@@ -62,17 +62,17 @@ void add_cup(const Cup& cup, const Vec3& ball_colour, bool lit, double plate_z, 
 
 /// The circle in the middle of the picture, on the lens as it were: green while the lit sphere's middle is in it.
 SceneObject middle_ring(const SessionView& view) {
-  const CameraRules& rules = *view.scene.setup.exercise.camera;
+  const CameraLevel& level = *view.scene.level.camera;
   const Camera camera = scope_sees(view.scene, view.record.stylus.X_TI);
   const Vec3 forward = (camera.look_at_T - camera.eye_T).normalized();
-  const double diameter = 2 * kRingBefore * std::tan(rules.centre_rad);
+  const double diameter = 2 * kRingBefore * std::tan(level.centre_rad);
   SceneObject ring;
   ring.shape = Shape::kRing;
   ring.size_m = {diameter, diameter, kRingWire};
   ring.X_TO.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), forward).toRotationMatrix();
   ring.X_TO.p = camera.eye_T + kRingBefore * forward;
   const DirectorStatus& status = view.director.status();
-  const bool inside = status.target_index >= 0 && status.angle_error_rad <= rules.centre_rad;
+  const bool inside = status.target_index >= 0 && status.angle_error_rad <= level.centre_rad;
   ring.style = inside ? Style::kGhostDone : Style::kGhost;
   return ring;
 }

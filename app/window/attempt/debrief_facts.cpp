@@ -125,6 +125,8 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kRegrasp) return words("Grasped again");
   if (type == event_type::kWrongBlock) return words("Wrong block");
   if (type == event_type::kRemoved) return words("Placed block taken away");
+  if (type == event_type::kWallContact) return words("Lens touched");
+  if (type == event_type::kHorizonLost) return words("Horizon lost");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

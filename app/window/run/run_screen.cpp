@@ -136,8 +136,9 @@ void RunScreen::State::begin(PracticeModel& model) {
 
 /// What is shown of the run: nothing has been seen of it yet, or it is not ready, the instrument where it comes in.
 const RunMoment& RunScreen::State::shown_moment(PracticeModel& model) const {
-  const AttemptRunner& run = *model.running();
-  return run.newest().seen && (run.ready() || run.scene().loop.daq.motors) ? run.newest() : before;
+  AttemptRunner& run = *model.running();
+  const RunMoment& newest = run.newest();
+  return newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
 }
 
 /// Where the scope is now; until the person has taken hold, where the exercise has it.

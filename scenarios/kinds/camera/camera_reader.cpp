@@ -20,8 +20,6 @@ void read_view(StrictTable table, CameraRules& rules) {
   rules.nearest_m = table.number("nearest_mm", 5, 200) * kMilli;
   rules.farthest_m = table.number("farthest_mm", 5, 300) * kMilli;
   rules.drawn_m = table.number("drawn_mm", 5, 300) * kMilli;
-  rules.centre_rad = table.number("centre_deg", 0.5, 30) * kDegrees;
-  rules.horizon_rad = table.number("horizon_deg", 1, 90) * kDegrees;
   rules.lost_s = table.number("horizon_lost_s", 0.1, 60);
   rules.counted_s = table.number("counted_horizon_s", 0.1, 60);
   rules.timeout_s = table.number("timeout_s", 1, 600);
@@ -56,6 +54,8 @@ void read_camera(StrictTable& document, Exercise& exercise) {
 void read_camera_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
   CameraLevel camera = level.camera ? *level.camera : CameraLevel{};
   keys.number("scope_deg", 0, 70, kDegrees, camera.tilt_rad);
+  keys.number("centre_deg", 0.5, 30, kDegrees, camera.centre_rad);
+  keys.number("horizon_deg", 1, 90, kDegrees, camera.horizon_rad);
   keys.number("bore_mm", 1, 60, kMilli, camera.bore_m);
   if (camera.bore_m < exercise.camera->sphere_m)
     keys.table.fail("bore_mm", "'bore_mm' is narrower than the sphere");

@@ -18,6 +18,7 @@ constexpr double kToastOfWall = 0.5;     // of the monitor: just touched
 
 CameraTask::CameraTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& poses)
     : rules_(*exercise.camera),
+      level_(*level.camera),
       R_IC_(picture_in_instrument(level.camera->tilt_rad)),
       coached_(level.force_display != "after"),
       poses_(poses),
@@ -54,13 +55,13 @@ CameraTask::Sight CameraTask::look(const Pose& X_TI) const {
 }
 
 bool CameraTask::good(const Sight& sight) const {
-  return sight.whole && sight.off_middle_rad <= rules_.centre_rad && sight.distance_m >= rules_.nearest_m &&
-         sight.distance_m <= rules_.farthest_m && std::abs(sight.horizon_rad) <= rules_.horizon_rad;
+  return sight.whole && sight.off_middle_rad <= level_.centre_rad && sight.distance_m >= rules_.nearest_m &&
+         sight.distance_m <= rules_.farthest_m && std::abs(sight.horizon_rad) <= level_.horizon_rad;
 }
 
 void CameraTask::watch_horizon(const TaskInput& input, EventLog& log) {
   Account& account = accounts_[static_cast<std::size_t>(object())];
-  if (std::abs(sight_.horizon_rad) <= rules_.horizon_rad) {
+  if (std::abs(sight_.horizon_rad) <= level_.horizon_rad) {
     if (!frozen(input.stylus)) account.level_s += input.dt_s;
     lost_for_s_ = 0;
     return;
@@ -116,7 +117,7 @@ void CameraTask::hints(DirectorStatus& status) const {
                             std::to_string(cups_.size()) + ".";
   if (wall_.above()) return say(status, "The lens touches", "Draw the scope back.", true);
   if (hold_.progress() > 0 || good(sight_)) return say(status, "Good - hold", count);
-  if (!coached_ || sight_.off_middle_rad > rules_.centre_rad)
+  if (!coached_ || sight_.off_middle_rad > level_.centre_rad)
     return say(status, "Bring the lit sphere into the ring", count);
   if (sight_.distance_m < rules_.nearest_m) return say(status, "Draw the scope back", "It is too near.");
   if (sight_.distance_m > rules_.farthest_m) return say(status, "Go nearer", "It is too far away.");
@@ -137,8 +138,8 @@ void CameraTask::describe(const TaskInput&, DirectorStatus& status) const {
   if (finished()) return;
   const Target& pose = poses_[static_cast<std::size_t>(object())];
   const Cup& cup = cups_[static_cast<std::size_t>(object())];
-  status.demand = {pose.centre_T,         pose.normal_T, kEach * rules_.centre_rad * rules_.drawn_m, true, pose.R_TI,
-                   kEach * rules_.centre_rad, {}};
+  status.demand = {pose.centre_T,         pose.normal_T, kEach * level_.centre_rad * rules_.drawn_m, true, pose.R_TI,
+                   kEach * level_.centre_rad, {}};
   status.demand.object = {{Mat3::Identity(), cup.sphere_T}, Vec3::Constant(rules_.sphere_m)};
   status.demand.goal_T = cup.sphere_T;
   status.position_error_m = sight_.distance_m;

@@ -51,6 +51,7 @@ class CameraTask final : public ExerciseTask {
   void hints(DirectorStatus& status) const;
 
   CameraRules rules_;
+  CameraLevel level_;
   Mat3 R_IC_;
   bool coached_;  ///< messages say what is wrong
   std::vector<Target> poses_;
