@@ -40,8 +40,8 @@ inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET
     kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"}, kGrasped{"GRASPED"},
     kWrongBlock{"WRONG_BLOCK"}, kRemoved{"REMOVED"};
 // Camera
-inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_LOST"},
-    kHorizonKept{"HORIZON_KEPT"}, kViewJerks{"VIEW_JERKS"};
+inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_LOST"}, kHorizonKept{"HORIZON_KEPT"},
+    kViewJerks{"VIEW_JERKS"};
 // Wire
 inline constexpr EventType kWireTouched{"WIRE_TOUCHED"}, kRingOff{"RING_OFF"};
 // Palpate
@@ -60,9 +60,8 @@ inline constexpr EventType kAll[] = {
     kGripHeld,      kGripOffered, kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
     kSetDown,       kSlip,        kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
     kGrasped,       kWrongBlock,  kRemoved,       kWallContact,   kHorizonLost,    kHorizonKept, kViewJerks,
-    kWireTouched,   kRingOff,
-    kNoduleFound,   kFalseMark,   kSearchEnded,   kTissueTaken,   kExposed,        kCovered,     kLetGo,
-    kMarked,        kMessage};
+    kWireTouched,   kRingOff,     kNoduleFound,   kFalseMark,     kSearchEnded,    kTissueTaken, kExposed,
+    kCovered,       kLetGo,       kMarked,        kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

@@ -13,11 +13,11 @@ namespace {
 using Shape = SceneObject::Shape;
 using Style = SceneObject::Style;
 
-constexpr double kScopeField = 72;       // deg, of the round field's diameter
-constexpr double kRingBefore = 0.012;    // m from the lens: before everything that is looked at
-constexpr double kRingWire = 0.00018;    // m
-constexpr double kStem = 0.005;          // m, diameter
-constexpr double kTellingView = 0.5;     // of a hold
+constexpr double kScopeField = 72;     // deg, of the round field's diameter
+constexpr double kRingBefore = 0.012;  // m from the lens: before everything that is looked at
+constexpr double kRingWire = 0.00018;  // m
+constexpr double kStem = 0.005;        // m, diameter
+constexpr double kTellingView = 0.5;   // of a hold
 const Vec3 kCupGrey(0.36, 0.37, 0.38), kStemGrey(0.22, 0.23, 0.24);
 const Vec3 kWaitingBall(0.10, 0.22, 0.55), kLitBall(0.95, 0.62, 0.03), kDoneBall(0.05, 0.38, 0.16);
 
@@ -84,7 +84,10 @@ void add_cups(const SessionView& view, std::vector<SceneObject>& out) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const bool lit = static_cast<int>(i) == status.target_index;
     add_cup(cup_of(targets[i], *exercise.camera, *view.scene.level.camera),
-            lit ? kLitBall : status.done.test(i) ? kDoneBall : kWaitingBall, lit, exercise.camera->board_z_m, out);
+            lit                   ? kLitBall
+            : status.done.test(i) ? kDoneBall
+                                  : kWaitingBall,
+            lit, exercise.camera->board_z_m, out);
   }
   out.push_back(middle_ring(view));
 }
@@ -95,8 +98,7 @@ std::vector<HudRow> camera_rows(const Scene& scene, const DirectorStatus& status
                            {"Wall contacts", std::to_string(status.wrong_places), "x"}};
   if (told(scene.level) && status.phase == Phase::kRun) {
     rows.push_back({"Distance", hud_number("%.0f", 1000 * status.position_error_m), "mm", true});
-    rows.push_back(
-        {"Horizon", hud_number("%.0f", std::abs(status.horizon_rad) * 180 / std::numbers::pi), "°", true});
+    rows.push_back({"Horizon", hud_number("%.0f", std::abs(status.horizon_rad) * 180 / std::numbers::pi), "°", true});
   }
   rows.push_back(hold_row(status));
   return rows;

@@ -125,8 +125,7 @@ std::string pose_advice(const Advised& a, const std::string& metric) {
 std::string scope_advice(const Advised& a, const std::string& metric) {
   if (metric == "horizon_share")
     return a.words("Try next: watch the horizon while you travel, and roll the scope back at once.");
-  if (metric == "wall_contacts")
-    return a.words("Try next: draw the scope back before you go across to the next cup.");
+  if (metric == "wall_contacts") return a.words("Try next: draw the scope back before you go across to the next cup.");
   if (metric == "view_jerks") return a.words("Try next: one slow move to each sphere; let the picture come to rest.");
   return a.words("Try next: go back until the lit cup is in the picture, then centre it, then go nearer along it.");
 }
@@ -203,9 +202,8 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
     return words(row.raw == 1 ? "The lens touched once." : "The lens touched {0} times.", {row.value});
   if (m == "view_jerks") return words("{0} jerks of the picture for each sphere.", {row.value});
   if (m == "matched_in_time_share" && a.counts().out_of_time > 0 && a.exercise.camera)
-    return words(
-        a.counts().out_of_time == 1 ? "Once a sphere ran out of time." : "{0} times a sphere ran out of time.",
-        {std::to_string(a.counts().out_of_time)});
+    return words(a.counts().out_of_time == 1 ? "Once a sphere ran out of time." : "{0} times a sphere ran out of time.",
+                 {std::to_string(a.counts().out_of_time)});
   if (m == "matched_in_time_share" && a.counts().out_of_time > 0)
     return words(a.counts().out_of_time == 1 ? "Once a pen ran out of time." : "{0} times a pen ran out of time.",
                  {std::to_string(a.counts().out_of_time)});

@@ -1,4 +1,5 @@
-// Camera navigation (E04): the instrument is the scope; one sphere after the other is brought into the picture's middle.
+// Camera navigation (E04): the instrument is the scope; one sphere after the other is brought into the picture's
+// middle.
 #pragma once
 
 #include "scenarios/kinds/kind.h"

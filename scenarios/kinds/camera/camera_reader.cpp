@@ -57,8 +57,7 @@ void read_camera_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel&
   keys.number("centre_deg", 0.5, 30, kDegrees, camera.centre_rad);
   keys.number("horizon_deg", 1, 90, kDegrees, camera.horizon_rad);
   keys.number("bore_mm", 1, 60, kMilli, camera.bore_m);
-  if (camera.bore_m < exercise.camera->sphere_m)
-    keys.table.fail("bore_mm", "'bore_mm' is narrower than the sphere");
+  if (camera.bore_m < exercise.camera->sphere_m) keys.table.fail("bore_mm", "'bore_mm' is narrower than the sphere");
   level.camera = std::make_shared<const CameraLevel>(camera);
 }
 

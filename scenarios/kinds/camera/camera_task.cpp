@@ -8,11 +8,11 @@
 namespace trocar {
 namespace {
 
-constexpr double kLensRadius = 0.0025;   // m: the end of the shaft
-constexpr double kWallRearm = 0.3;       // s free of it until a contact counts as new
-constexpr double kWallRepeat = 1.0;      // s of staying in contact that count as one more
-constexpr double kEach = 2.0 / 3;        // of the middle's circle that place and turn may each take, as told to a hand
-constexpr double kToastOfWall = 0.5;     // of the monitor: just touched
+constexpr double kLensRadius = 0.0025;  // m: the end of the shaft
+constexpr double kWallRearm = 0.3;      // s free of it until a contact counts as new
+constexpr double kWallRepeat = 1.0;     // s of staying in contact that count as one more
+constexpr double kEach = 2.0 / 3;       // of the middle's circle that place and turn may each take, as told to a hand
+constexpr double kToastOfWall = 0.5;    // of the monitor: just touched
 
 }  // namespace
 
@@ -113,8 +113,8 @@ void CameraTask::update(const TaskInput& input, EventLog& log) {
 }
 
 void CameraTask::hints(DirectorStatus& status) const {
-  const std::string count = "Sphere " + std::to_string(status.targets_done + 1) + " of " +
-                            std::to_string(cups_.size()) + ".";
+  const std::string count =
+      "Sphere " + std::to_string(status.targets_done + 1) + " of " + std::to_string(cups_.size()) + ".";
   if (wall_.above()) return say(status, "The lens touches", "Draw the scope back.", true);
   if (hold_.progress() > 0 || good(sight_)) return say(status, "Good - hold", count);
   if (!coached_ || sight_.off_middle_rad > level_.centre_rad)
@@ -138,8 +138,13 @@ void CameraTask::describe(const TaskInput&, DirectorStatus& status) const {
   if (finished()) return;
   const Target& pose = poses_[static_cast<std::size_t>(object())];
   const Cup& cup = cups_[static_cast<std::size_t>(object())];
-  status.demand = {pose.centre_T,         pose.normal_T, kEach * level_.centre_rad * rules_.drawn_m, true, pose.R_TI,
-                   kEach * level_.centre_rad, {}};
+  status.demand = {pose.centre_T,
+                   pose.normal_T,
+                   kEach * level_.centre_rad * rules_.drawn_m,
+                   true,
+                   pose.R_TI,
+                   kEach * level_.centre_rad,
+                   {}};
   status.demand.object = {{Mat3::Identity(), cup.sphere_T}, Vec3::Constant(rules_.sphere_m)};
   status.demand.goal_T = cup.sphere_T;
   status.position_error_m = sight_.distance_m;

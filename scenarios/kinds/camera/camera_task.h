@@ -3,9 +3,9 @@
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit), TARGET_TIMEOUT (it comes back after the others); with the last two,
 // of all the time the sphere has been lit so far, HORIZON_KEPT (share with a level picture; of that time only so much
-// counts as a quick hand needs, of the other all) and VIEW_JERKS (peaks of the sphere's speed in the picture). Any time:
-// HORIZON_LOST (rad, picture rolled too far for long, again after each such while), WALL_CONTACT (m/s, the lens meets a
-// cup or the plate). Frame T, SI units. Deterministic. Thread: the tissue task's.
+// counts as a quick hand needs, of the other all) and VIEW_JERKS (peaks of the sphere's speed in the picture). Any
+// time: HORIZON_LOST (rad, picture rolled too far for long, again after each such while), WALL_CONTACT (m/s, the lens
+// meets a cup or the plate). Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <deque>

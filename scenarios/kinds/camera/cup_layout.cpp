@@ -98,8 +98,8 @@ Board lay_out_cups(const Exercise& exercise, const ExerciseLevel& level, const M
   }
   if (result.targets.size() < wanted) {
     throw InputError("board " + std::to_string(board) + " of exercise '" + exercise.id + "', level " + level.name +
-                     ": there is room for " + std::to_string(result.targets.size()) + " of " +
-                     std::to_string(wanted) + " cups");
+                     ": there is room for " + std::to_string(result.targets.size()) + " of " + std::to_string(wanted) +
+                     " cups");
   }
   result.start_T = exercise.start_above_m;
   BoardPlate plate;

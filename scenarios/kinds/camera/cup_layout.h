@@ -2,8 +2,8 @@
 // is put where that scope looks, its axis along the line of sight. Drawn by the board number alone.
 //
 // Lens uniform in the region; shaft swung from the resting one, or along the line from the port; picture level. Line of
-// sight not steeper than the rules have it, spheres, cups and ways between clear of each other and of the plate. Frame T
-// (origin at the region's centre). Thread: loading only.
+// sight not steeper than the rules have it, spheres, cups and ways between clear of each other and of the plate. Frame
+// T (origin at the region's centre). Thread: loading only.
 #pragma once
 
 #include "scenarios/director/director.h"

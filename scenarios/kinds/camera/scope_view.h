@@ -1,7 +1,7 @@
 // What a scope sees that is itself the instrument: axes of the picture, its horizon, a sphere in it.
 //
-// C: x right, y down, z along the line of sight, origin at the lens = tip of the instrument. The camera head is fixed to
-// the shaft: untilted C = I with right = y, up = x; a tilted tip looks below the shaft, R_IC = R_IC0 Rx(-tilt)
+// C: x right, y down, z along the line of sight, origin at the lens = tip of the instrument. The camera head is fixed
+// to the shaft: untilted C = I with right = y, up = x; a tilted tip looks below the shaft, R_IC = R_IC0 Rx(-tilt)
 // (docs/decisions/0024-scope-as-instrument.md). Frame T, m, rad. Thread: pure.
 #pragma once
 

@@ -7,7 +7,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kSmooth = 0.05;                             // s
+constexpr double kSmooth = 0.05;                            // s
 constexpr double kProminence = 8 * std::numbers::pi / 180;  // rad/s [D]
 
 }  // namespace
