@@ -14,11 +14,12 @@ using Shape = SceneObject::Shape;
 using Style = SceneObject::Style;
 
 constexpr double kScopeField = 72;     // deg, of the round field's diameter
-constexpr double kRingBefore = 0.012;  // m from the lens: before everything that is looked at
-constexpr double kRingWire = 0.00018;  // m
+constexpr double kRingBefore = 0.006;  // m from the lens: before everything that is looked at
+constexpr double kRingWire = 0.00006;  // m
 constexpr double kStem = 0.005;        // m, diameter
 constexpr double kTellingView = 0.5;   // of a hold
 const Vec3 kCupGrey(0.36, 0.37, 0.38), kStemGrey(0.22, 0.23, 0.24);
+const Vec3 kRingWhite(0.75, 0.75, 0.72), kRingGreen(0.01, 0.75, 0.22);
 const Vec3 kWaitingBall(0.10, 0.22, 0.55), kLitBall(0.95, 0.62, 0.03), kDoneBall(0.05, 0.38, 0.16);
 
 /// At the highest level nothing tells what is level.
@@ -73,7 +74,7 @@ SceneObject middle_ring(const SessionView& view) {
   ring.X_TO.p = camera.eye_T + kRingBefore * forward;
   const DirectorStatus& status = view.director.status();
   const bool inside = status.target_index >= 0 && status.angle_error_rad <= level.centre_rad;
-  ring.style = inside ? Style::kGhostDone : Style::kGhost;
+  ring.colour = inside ? kRingGreen : kRingWhite;
   return ring;
 }
 
