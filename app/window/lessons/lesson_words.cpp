@@ -92,9 +92,9 @@ std::string lesson_display(const Translator& w, const Exercise& exercise, const 
 }
 
 std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
-  const std::string tool = exercise.camera                               ? w("Scope, 5 mm")
+  const std::string tool = exercise.camera                              ? w("Scope, 5 mm")
                            : kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm")
-                                                                         : w("Grasper, 5 mm");
+                                                                        : w("Grasper, 5 mm");
   if (level.mapping != Mapping::kFulcrum)
     return pointer ? w("{0}, no port: you move the tip and turn the shaft about it.", {tool})
                    : w("{0}, one hand, no port: the tip moves with the hand.", {tool});

@@ -520,7 +520,7 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
   const Translator& w = model.words();
   const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
   std::vector<std::string> lines{key(Action::kPause) + "  " + w("Pause"), key(Action::kHelp) + "  " + w("Help")};
-  if (model.scope() != "0")
+  if (model.scope() != "0" && !is_scope(model.exercise()))
     lines.insert(lines.begin(), key(Action::kPostLeft) + " " + key(Action::kPostRight) + "  " + w("Light post"));
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - static_cast<double>(lines.size()) * ui.line_height() - ui.px(6);
