@@ -6,7 +6,6 @@
 
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/grasp/grasp_layout.h"
-#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 
@@ -19,7 +18,7 @@ review::LevelFacts desk_level_facts(const std::string& exercise_text, const std:
     facts.limits.high_n = found.band_high_n;
   }
   facts.limits.hard_n = exercise.hard_force_n;
-  if (kind_of(exercise).oriented) facts.pose = {found.position_tolerance_m, found.angle_tolerance_rad};
+  if (found.position_tolerance_m > 0) facts.pose = {found.position_tolerance_m, found.angle_tolerance_rad};
   facts.pass_at = found.rubric.pass_at;
   for (const SubscoreRule& rule : found.rubric.subscores)
     facts.less_is_better[rule.metric] = rule.full_at < rule.zero_at;

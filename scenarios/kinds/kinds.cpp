@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "scenarios/director/director.h"
+#include "scenarios/kinds/camera/camera_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
@@ -10,7 +11,7 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind(), retract_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind(), retract_kind(), camera_kind()};
   return kinds;
 }
 

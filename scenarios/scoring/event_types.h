@@ -40,7 +40,8 @@ inline constexpr EventType kRegrasp{"REGRASP"}, kLifted{"LIFTED"}, kSetDown{"SET
     kDrop{"DROP"}, kPlaced{"PLACED"}, kMisplaced{"MISPLACED"}, kLost{"LOST"}, kGrasped{"GRASPED"},
     kWrongBlock{"WRONG_BLOCK"}, kRemoved{"REMOVED"};
 // Camera
-inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_LOST"};
+inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_LOST"}, kHorizonKept{"HORIZON_KEPT"},
+    kViewJerks{"VIEW_JERKS"};
 // Wire
 inline constexpr EventType kWireTouched{"WIRE_TOUCHED"}, kRingOff{"RING_OFF"};
 // Palpate
@@ -58,9 +59,9 @@ inline constexpr EventType kAll[] = {
     kThrow,         kTargetLit,   kTargetHeld,    kTargetTouched, kWrongPlace,     kGripTouched, kGripExcess,
     kGripHeld,      kGripOffered, kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
     kSetDown,       kSlip,        kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
-    kGrasped,       kWrongBlock,  kRemoved,       kWallContact,   kHorizonLost,    kWireTouched, kRingOff,
-    kNoduleFound,   kFalseMark,   kSearchEnded,   kTissueTaken,   kExposed,        kCovered,     kLetGo,
-    kMarked,        kMessage};
+    kGrasped,       kWrongBlock,  kRemoved,       kWallContact,   kHorizonLost,    kHorizonKept, kViewJerks,
+    kWireTouched,   kRingOff,     kNoduleFound,   kFalseMark,     kSearchEnded,    kTissueTaken, kExposed,
+    kCovered,       kLetGo,       kMarked,        kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

@@ -145,6 +145,15 @@ constexpr MetricDefinition kCatalogue[] = {
      "mean of the first EXPOSED of each object", kLess, kTime},
     {"holds_lost", "1", "times that lifted tissue slid, was let go too early or sank back",
      "count of SLIP, LET_GO and COVERED", kLess, kErrors},
+    {"time_per_target_s", "s", "time of the run / spheres held (camera navigation)",
+     "(t(end) - t(START)) / objects done", kLess, kTime},
+    {"horizon_share", "1",
+     "time with a level picture, up to that of a quick hand, over it and the time without; mean over spheres",
+     "mean over objects of the last HORIZON_KEPT", kMore},
+    {"horizon_losses", "1", "times that the picture stayed rolled too far", "count of HORIZON_LOST", kLess, kErrors},
+    {"wall_contacts", "1", "times that the lens touched a cup or the plate", "count of WALL_CONTACT", kLess, kErrors},
+    {"view_jerks", "1", "peaks of the lit sphere's speed in the picture, while it is lit; mean over spheres",
+     "mean over objects of the last VIEW_JERKS", kLess},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -233,6 +242,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_rest_metric(trace, events, metrics);
   add_grasp_metrics(graded, graded_events, context, metrics);
   add_retract_metrics(graded_events, metrics);
+  add_camera_metrics(graded, graded_events, context, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

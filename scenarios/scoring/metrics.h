@@ -57,6 +57,8 @@ void add_grasp_metrics(const Trace& trace, const std::vector<Event>& events, con
                        MetricSink& sink);
 /// @param events of the graded window.
 void add_retract_metrics(const std::vector<Event>& events, MetricSink& sink);
+void add_camera_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
+                        MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

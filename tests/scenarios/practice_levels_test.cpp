@@ -95,7 +95,7 @@ TEST_P(PracticeLevels, AnyErrorMoreNeverRaisesTheScore) {
   const PracticeAttempt a = attempt(GetParam(), "intermediate", 2);
   const Rubric& rubric = find_level(room(GetParam().exercise).exercise, GetParam().level).rubric;
   for (const char* type : {"WRONG_PLACE", "EXCESS_FORCE", "GRIP_EXCESS", "TOOL_COLLISION", "TARGET_TIMEOUT",
-                           "DEVICE_LIMIT", "TARGET_TOUCHED", "TARGET_HELD"}) {
+                           "DEVICE_LIMIT", "TARGET_TOUCHED", "TARGET_HELD", "HORIZON_LOST", "WALL_CONTACT"}) {
     double before = *a.grade.score;
     std::vector<Event> events = a.events;
     for (int i = 0; i < 4; ++i) {
@@ -127,10 +127,10 @@ TEST_P(PracticeLevels, EverySubscoreFallsAsItsMetricGetsWorse) {
 INSTANTIATE_TEST_SUITE_P(All, PracticeLevels,
                          testing::Values(Cell{"reach-and-orient", "L1"}, Cell{"reach-and-orient", "L2"},
                                          Cell{"reach-and-orient", "L3"}, Cell{"surface-touch", "L2"},
-                                         Cell{"surface-touch", "L3"}));
+                                         Cell{"surface-touch", "L3"}, Cell{"camera-navigation", "L3"}));
 
 TEST(Exam, IsTheThirdLevelWithoutFeedback) {
-  for (const char* id : {"reach-and-orient", "surface-touch"}) {
+  for (const char* id : {"reach-and-orient", "surface-touch", "camera-navigation"}) {
     const Exercise& exercise = room(id).exercise;
     const ExerciseLevel &third = find_level(exercise, "L3"), &exam = find_level(exercise, "exam");
     EXPECT_EQ(exam.force_display, "after");

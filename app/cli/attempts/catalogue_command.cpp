@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
+Json level_json(const ExerciseLevel& level) {
   Json json = {{"name", level.name},
                {"mapping", mapping_name(level.mapping)},
                {"motion_scale", level.motion_scale},
@@ -36,7 +36,7 @@ Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
                {"expert_time_s", level.expert_time_s}};
   if (level.mapping == Mapping::kFulcrum) json["port_m"] = {level.port_m.x(), level.port_m.y(), level.port_m.z()};
   for (const WantedForce& band : level.bands) json["bands_n"].push_back({band.low_n, band.high_n});
-  if (kind_of(exercise).oriented) {
+  if (level.position_tolerance_m > 0) {
     json["position_tolerance_m"] = level.position_tolerance_m;
     json["angle_tolerance_rad"] = level.angle_tolerance_rad;
   }
@@ -46,7 +46,7 @@ Json level_json(const Exercise& exercise, const ExerciseLevel& level) {
 
 Json exercise_json(const Exercise& exercise) {
   Json levels = Json::array();
-  for (const ExerciseLevel& level : exercise.levels) levels.push_back(level_json(exercise, level));
+  for (const ExerciseLevel& level : exercise.levels) levels.push_back(level_json(level));
   return {{"id", exercise.id},
           {"number", exercise.number},
           {"kind", kind_of(exercise).name},
@@ -71,7 +71,7 @@ void list_exercise(const Exercise& exercise, std::ostream& out) {
     out << "     " << std::setw(6) << level.name << mapping_name(level.mapping)
         << ", force shown: " << level.force_display << ", " << level.time_limit_s << " s";
     for (const WantedForce& band : level.bands) out << ", " << band.low_n << "-" << band.high_n << " N";
-    if (kind_of(exercise).oriented)
+    if (level.position_tolerance_m > 0)
       out << ", " << 1e3 * level.position_tolerance_m << " mm, " << level.angle_tolerance_rad * 180 / M_PI << " deg";
     out << '\n';
   }

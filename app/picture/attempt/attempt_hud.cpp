@@ -111,7 +111,7 @@ Hud attempt_hud(const SessionView& view, const Camera& camera, const std::string
   hud.elapsed_s = status.run_time_s;
   hud.limit_s = scene.level.time_limit_s;
   hud.bars = picture_of(exercise).bars(view);
-  if (status.demand.oriented) hud.dial = shown_dial(view, camera);
+  if (status.demand.oriented && !is_scope(exercise)) hud.dial = shown_dial(view, camera);
   add_map_notices(view.record.stylus, hud.notices);
   add_band_notice(view, hud.bars, hud.notices);
   add_surgery_notices(view, hud.notices);

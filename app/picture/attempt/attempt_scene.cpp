@@ -174,6 +174,13 @@ Camera attempt_camera(const Scene& scene) {
   return camera;
 }
 
+bool is_scope(const Exercise& exercise) { return picture_of(exercise).sees != nullptr; }
+
+Camera attempt_camera(const SessionView& view) {
+  const KindPicture& picture = picture_of(view.scene.setup.exercise);
+  return picture.sees ? picture.sees(view.scene, view.record.stylus.X_TI) : attempt_camera(view.scene);
+}
+
 namespace {
 
 /// On tissue that gives way the loop's depth is that of the whole dent; the surface has most of it already. What is
@@ -249,7 +256,7 @@ SceneView attempt_scene(const SessionView& view) {
   }
   if (view.tissue) add_marks(*view.tissue, out);
   if (view.tissue) add_clips_and_drops(*view.tissue, out.objects);
-  out.camera = attempt_camera(view.scene);
+  out.camera = attempt_camera(view);
   return out;
 }
 

@@ -19,6 +19,11 @@ InstrumentKind in_hand(const SessionView& view);
 /// that belongs to the board fits into the field.
 Camera attempt_camera(const Scene& scene);
 
+/// Is the instrument the scope, so that the picture goes with it?
+bool is_scope(const Exercise& exercise);
+/// What is seen at this moment: through the instrument where that is the scope, else as the exercise is framed.
+Camera attempt_camera(const SessionView& view);
+
 /// Board, blocks and ring marks as they are now. @param frame newest state of the blocks; nullptr: as laid out.
 std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFrame* frame, int lit_block);
 

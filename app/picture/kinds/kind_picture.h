@@ -30,6 +30,8 @@ struct KindPicture {
   Eigen::AlignedBox3d (*work)(const Scene&);
   /// A moment that tells what is done here, once half of the targets are.
   bool (*telling)(const SessionView&);
+  /// The instrument is the scope: what it sees from there. nullptr: somebody else holds the scope.
+  Camera (*sees)(const Scene&, const Pose& X_TI) = nullptr;
 };
 
 const KindPicture& picture_of(const Exercise&);

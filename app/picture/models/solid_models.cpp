@@ -136,6 +136,24 @@ PictureMesh build_sleeve(double bore, double length) {
       [&](int i) { return profile[static_cast<std::size_t>(i)].accent; });
 }
 
+/// Turned, its floor as thick as its wall; the rim is accented.
+PictureMesh build_cup(double bore, double outer_diameter, double depth) {
+  const double in = 0.5 * bore, out = 0.5 * outer_diameter, e = 0.25 * (out - in), foot = -depth - (out - in);
+  return turned({{foot, kPoint, 0},
+                 {foot, out - e, 0},
+                 {foot + e, out, 0},
+                 {-5 * e, out, 0},
+                 {-5 * e, out, 1},
+                 {-e, out, 1},
+                 {0, out - e, 1},
+                 {0, in + e, 1},
+                 {-e, in, 1},
+                 {-1.5 * e, in, 0},
+                 {-depth, in, 0},
+                 {-depth, kPoint, 0}},
+                40);
+}
+
 PictureMesh build_board(const Vec3& size) {
   PictureMesh board;
   append(board, build_rounded_box(size, std::min(0.0012, 0.3 * size.z()), 1), {0, 0, -0.5 * size.z()}, 0.0F);
@@ -183,6 +201,8 @@ PictureMesh build_solid(SceneObject::Shape shape, const Vec3& size_m) {
       return build_pen(size_m.x(), size_m.z());
     case SceneObject::Shape::kSphere:
       return build_sphere(size_m.x());
+    case SceneObject::Shape::kCup:
+      return build_cup(size_m.x(), size_m.y(), size_m.z());
     case SceneObject::Shape::kBoard:
       return build_board(size_m);
     case SceneObject::Shape::kSleeve:

@@ -124,6 +124,15 @@ std::string pose_advice(const Advised& a, const std::string& metric) {
              : a.words("Try next: turn the instrument while you travel, so that only the last millimetres are left.");
 }
 
+/// Of a hand that leads the scope.
+std::string scope_advice(const Advised& a, const std::string& metric) {
+  if (metric == "horizon_share")
+    return a.words("Try next: watch the horizon while you travel, and roll the scope back at once.");
+  if (metric == "wall_contacts") return a.words("Try next: draw the scope back before you go across to the next cup.");
+  if (metric == "view_jerks") return a.words("Try next: one slow move to each sphere; let the picture come to rest.");
+  return a.words("Try next: go back until the lit cup is in the picture, then centre it, then go nearer along it.");
+}
+
 std::string next_for(const Advised& a, const DebriefRow& row) {
   const Translator& words = a.words;
   const std::string& m = row.metric;
@@ -143,8 +152,9 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
   if (m == "objects_done_share") return placing_advice(a);
   if (m == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");
+  if (a.exercise.camera && m != "time_per_target_s") return scope_advice(a, m);
   if (m == "matched_in_time_share" || m == "position_error_m" || m == "angle_error_deg") return pose_advice(a, m);
-  if (m == "time_s") return time_advice(a);
+  if (m == "time_s" || m == "time_per_target_s") return time_advice(a);
   return words("Try next: {0}, now {1}, towards {2}.", {row.name, row.value, row.full});
 }
 
@@ -198,6 +208,13 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);
+  if (m == "horizon_share") return words("Level for {0} of the time.", {row.value});
+  if (m == "wall_contacts")
+    return words(row.raw == 1 ? "The lens touched once." : "The lens touched {0} times.", {row.value});
+  if (m == "view_jerks") return words("{0} jerks of the picture for each sphere.", {row.value});
+  if (m == "matched_in_time_share" && a.counts().out_of_time > 0 && a.exercise.camera)
+    return words(a.counts().out_of_time == 1 ? "Once a sphere ran out of time." : "{0} times a sphere ran out of time.",
+                 {std::to_string(a.counts().out_of_time)});
   if (m == "matched_in_time_share" && a.counts().out_of_time > 0)
     return words(a.counts().out_of_time == 1 ? "Once a pen ran out of time." : "{0} times a pen ran out of time.",
                  {std::to_string(a.counts().out_of_time)});

@@ -20,10 +20,10 @@ ScoreGroup group_of(const SubscoreRule& rule) {
   if (rule.gate ||
       among(m, {"excess_events", "critical_events", "tool_collisions", "crushed", "force_max_n", "soft_force_share"}))
     return ScoreGroup::kSafety;
-  if (m == "time_s") return ScoreGroup::kTime;
+  if (m == "time_s" || m == "time_per_target_s") return ScoreGroup::kTime;
   if (m.starts_with("path_") || m.ends_with("regrasps") ||
       among(m, {"economy", "depth_path_m", "angular_path_deg", "movements", "speed_peaks", "speed_peak_rate_hz",
-                "idle_share", "clutches"}))
+                "idle_share", "clutches", "view_jerks"}))
     return ScoreGroup::kMotion;
   return ScoreGroup::kAccuracy;
 }

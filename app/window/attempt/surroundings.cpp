@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/height_field.h"
@@ -133,6 +134,8 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   if (out.touching) out.force_n = record.stylus.F_I_T.force.norm();
   out.gripping = record.stylus.grip_force_n > 0;
+  out.scope = is_scope(s.scene.setup.exercise);
+  if (out.scope) return out;  // it moves along what it sees
   if (!s.scene.level.pointer.glide && !waits_for_start(status.phase)) return out;
   s.ground = s.ground_of(status, record.stylus.X_TI.p);
   out.ground = &s.ground;

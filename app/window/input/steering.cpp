@@ -464,11 +464,12 @@ struct Steering::State {
   void advance(double dt_s, const Camera& camera, double height_px, const AtHand& around) {
     const double dt = std::clamp(dt_s, 0.0, kLongestStep);
     const View view = view_of(camera, intent.X_TI.p, height_px);
-    const Wish now = wish(dt, view, height_px);
+    Wish now = wish(dt, view, height_px);
     hold_clutch();
     hold_switches(around);
     act(!around.in_tissue, dt);
     move_tip(now, view, camera, around, dt);
+    if (around.scope) now.lean = -now.lean;  // the shaft's far end goes the other way
     turn_wrist(now, view, dt);
     move_scope(dt, height_px);
     move_jaws(around, dt);

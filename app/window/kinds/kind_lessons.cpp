@@ -9,9 +9,10 @@ KindLesson reach_lesson();
 KindLesson touch_lesson();
 KindLesson grasp_lesson();
 KindLesson retract_lesson();
+KindLesson camera_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson(), retract_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson(), retract_lesson(), camera_lesson()};
   return lessons;
 }
 

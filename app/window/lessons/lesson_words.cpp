@@ -76,6 +76,9 @@ std::string lesson_rule(const Translator& w, const Rubric& rubric) {
 
 std::string lesson_display(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
   const std::string& display = level.force_display;
+  if (exercise.camera)
+    return display == "after" ? w("Horizon and distance: not during the run. Judge them by eye.")
+                              : w("Horizon and distance: always shown.");
   if (kind_of(exercise).watched == WatchedForce::kNone) {
     if (display == "band") return w("Match of the pen: shown only while something is off.");
     if (display == "after") return w("Match of the pen: not during the run. Judge place and turn by eye.");
@@ -89,7 +92,9 @@ std::string lesson_display(const Translator& w, const Exercise& exercise, const 
 }
 
 std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
-  const std::string tool = kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm") : w("Grasper, 5 mm");
+  const std::string tool = exercise.camera                              ? w("Scope, 5 mm")
+                           : kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm")
+                                                                        : w("Grasper, 5 mm");
   if (level.mapping != Mapping::kFulcrum)
     return pointer ? w("{0}, no port: you move the tip and turn the shaft about it.", {tool})
                    : w("{0}, one hand, no port: the tip moves with the hand.", {tool});

@@ -185,8 +185,10 @@ void ReplayScreen::force_of(Ui& ui, const Side& side, const Area& area) const {
   if (!bar) {
     const std::string mm = w.number(1e3 * moment.status.position_error_m, 1),
                       degrees = w.number(moment.status.angle_error_rad * 57.29578, 0);
-    const std::string far =
-        moment.status.demand.oriented ? w("{0} mm and {1} degrees from the pen", {mm, degrees}) : "";
+    const bool scope = is_scope(side.run->scene().setup.exercise);
+    const std::string far = !moment.status.demand.oriented ? ""
+                            : scope ? w("{0} mm from the sphere, {1} degrees off the middle", {mm, degrees})
+                                    : w("{0} mm and {1} degrees from the pen", {mm, degrees});
     ui.text_at(area.x, area.y, name + (far.empty() ? "" : ". " + far), Ink::kText, area.width);
     return;
   }

@@ -77,6 +77,7 @@ struct RunScreen::State {
   void begin(PracticeModel& model);
   void steer(PracticeModel& model);
   void command(Action action, PracticeModel& model);
+  const RunMoment& shown_moment(PracticeModel& model) const;
   Camera seen_by(PracticeModel& model) const;
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
@@ -133,8 +134,17 @@ void RunScreen::State::begin(PracticeModel& model) {
   begun = true;
 }
 
+/// What is shown of the run: nothing has been seen of it yet, or it is not ready, the instrument where it comes in.
+const RunMoment& RunScreen::State::shown_moment(PracticeModel& model) const {
+  AttemptRunner& run = *model.running();
+  const RunMoment& newest = run.newest();
+  return newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
+}
+
 /// Where the scope is now; until the person has taken hold, where the exercise has it.
 Camera RunScreen::State::seen_by(PracticeModel& model) const {
+  const Scene& scene = model.running()->scene();
+  if (is_scope(scene.setup.exercise)) return attempt_camera(view_of(scene, shown_moment(model)));
   return moved_camera(camera, steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
 }
 
@@ -164,6 +174,10 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   out.tip_T = view.X_TI.p;
   if (hold_shown(scene.setup.exercise, scene.level)) out.held = moment.status.hold_progress;
   out.lit_T = lit_outline(view_of(scene, moment), view.camera);
+  if (is_scope(scene.setup.exercise)) {  // the tip is the lens: what is held is round the sphere
+    out.tip_T = moment.status.demand.object.X_TO.p;
+    return out;
+  }
   const StylusState& stylus = moment.record.stylus;
   const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
   if (carries) out.plumb_T = moment.status.demand.object.X_TO.p;
@@ -189,7 +203,7 @@ std::string RunScreen::State::to_start(const Translator& words, const Scene& sce
 SceneView RunScreen::State::view(PracticeModel& model) {
   AttemptRunner& run = *model.running();
   const RunMoment& newest = run.newest();
-  const RunMoment& moment = newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
+  const RunMoment& moment = shown_moment(model);
   if (newest.seen) latency.drawn(newest.steered);
   sounds.hear(run.scene(), moment, model.sound());
   SceneView out = attempt_view(view_of(run.scene(), moment),
@@ -200,7 +214,7 @@ SceneView RunScreen::State::view(PracticeModel& model) {
   if (play != Play::kAttempt) leave_out_grading(out.hud);
   if (steering && tutorial) teach(moment, model);
   if (!guides) hide_guides(out);
-  if (steering) add_ghost(out, run.target());
+  if (steering && !is_scope(run.scene().setup.exercise)) add_ghost(out, run.target());
   guide = steering ? guide_at(run.scene(), out, moment) : TipGuide{};
   if (steering && waits_for_start(moment.status.phase))
     guide.to_go = to_start(model.words(), run.scene(), moment.record.stylus.X_TI.p);
@@ -305,7 +319,8 @@ std::optional<Screen::Stage> RunScreen::stage(PracticeModel& model, int width, i
   out.view = s.view(model);
   s.seen = out.view.camera;
   s.lay_out(out.view.hud, model, width, height);
-  s.rim = rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
+  const bool scope = is_scope(model.running()->scene().setup.exercise);
+  s.rim = scope ? std::nullopt : rim_angle(out.view.camera, s.picture, out.view.X_TI.p);
   s.lit_rim = s.guide.lit_T.empty() ? std::nullopt : rim_angle(out.view.camera, s.picture, middle_of(s.guide.lit_T));
   out.x = s.picture.x;
   out.y = s.picture.y;
@@ -506,7 +521,7 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
   const Translator& w = model.words();
   const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
   std::vector<std::string> lines{key(Action::kPause) + "  " + w("Pause"), key(Action::kHelp) + "  " + w("Help")};
-  if (model.scope() != "0")
+  if (model.scope() != "0" && !is_scope(model.exercise()))
     lines.insert(lines.begin(), key(Action::kPostLeft) + " " + key(Action::kPostRight) + "  " + w("Light post"));
   const double room = 0.5 * picture.width - 0.42 * picture.height - ui.px(8);
   double y = picture.y + picture.height - static_cast<double>(lines.size()) * ui.line_height() - ui.px(6);

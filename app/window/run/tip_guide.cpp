@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/window/ui/ui.h"
 
 namespace trocar {
@@ -137,6 +138,8 @@ std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
     return {circle(board.targets.at(static_cast<std::size_t>(status.target_index)).centre_T, Vec3::UnitZ(),
                    view.scene.setup.exercise.grasp.ring_radius_m)};
   if (status.cue == Cue::kLift) return {circle(d.goal_T, Vec3::UnitZ(), d.radius_m + kRoundDisc)};
+  if (is_scope(view.scene.setup.exercise))
+    return {circle(d.object.X_TO.p, facing(d.object.X_TO.p), 0.5 * d.object.size_m.x() + kRoundDisc)};
   if (d.oriented)
     return {circle(d.centre_T, facing(d.centre_T), d.radius_m), {d.centre_T, d.centre_T - kPenLine * d.R_TI.col(2)}};
   return {circle(d.centre_T, d.normal_T, d.radius_m + kRoundDisc)};
