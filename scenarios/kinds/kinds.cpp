@@ -5,11 +5,12 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
 #include "scenarios/kinds/touch/touch_kind.h"
+#include "scenarios/kinds/wire/wire_kind.h"
 
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind(), wire_kind()};
   return kinds;
 }
 

@@ -139,6 +139,16 @@ constexpr MetricDefinition kCatalogue[] = {
     {"drops", "1", "times that a block fell", "count of DROP", kLess, kErrors},
     {"misplaced", "1", "times that a carried block was set down outside its ring", "count of MISPLACED", kLess,
      kErrors},
+    {"wire_touch_share", "1",
+     "time in which the ring touches the wire at a gate, over that of an unhurried way there, 1 at most; mean over "
+     "gates",
+     "mean over gates of min(1, touching / unhurried)", kLess, kErrors},
+    {"wire_touches", "1", "times that the ring touched the wire for longer than 20 ms", "count of WIRE_TOUCHED", kLess,
+     kErrors},
+    {"ring_angle_deg", "deg", "angle between the ring's normal and the wire, mean over the wire passed",
+     "mean of ANGLE_ERROR", kLess},
+    {"touches_times_time_s", "s", "touches of the wire times the time: what haste gains by touching it does not lower",
+     "wire_touches x time_s", kLess, kErrors},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -226,6 +236,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_pose_metrics(graded_events, context, metrics);
   add_rest_metric(trace, events, metrics);
   add_grasp_metrics(graded, graded_events, context, metrics);
+  add_wire_metrics(graded, graded_events, context, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }
