@@ -238,6 +238,9 @@ METRICS = {
     "matched_in_time_share": matched_in_time_share,
     "position_error_m": lambda a: mean_value(a, "POSITION_ERROR"),
     "angle_error_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+    "wire_touch_share": wire_touch_share,
+    "wire_touches": lambda a: a.count("WIRE_TOUCHED"),
+    "ring_angle_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
 }
 
 
