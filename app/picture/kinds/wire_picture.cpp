@@ -111,7 +111,7 @@ KindPicture wire_picture() {
           .bars = [](const SessionView&) { return std::vector<ForceBar>{}; },
           .add_objects = add_wire,
           .work = wire_work,
-          .telling = [](const SessionView& view) { return view.record.stylus.contact; }};
+          .telling = [](const SessionView& view) { return view.director.status().ring.count > 0; }};
 }
 
 }  // namespace trocar

@@ -3,8 +3,8 @@
 // The ball holds the board region, its relief and the start sphere with 15 mm to spare, so that a lost mouse cannot
 // throw the arm. The wrist's limits are what the device can follow. Without a port the shaft lies across the stylus, so
 // that roll is soon a large turn of the arm: 24 degrees of lean and 20 of roll are the pens of reach-and-orient (20 and
-// 15) with room; through a port roll is the stylus' own. Where a ring follows a wire without a port it is too: about the
-// stylus, away from the trainee, the arm can turn for ever. Frame T, m, rad. Thread: plain value, any thread.
+// 15) with room; through a port roll is the stylus' own. Where a ring follows a wire without a port it is too: about
+// the stylus, away from the trainee, the arm can turn for ever. Frame T, m, rad. Thread: plain value, any thread.
 #pragma once
 
 #include <numbers>

@@ -52,6 +52,7 @@ void read_wire_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& l
   if (asked->ring_radius_m <= exercise.wire->radius_m)
     keys.table.fail("ring_diameter_mm", "the wire does not fit into the ring");
   keys.number("angle_tolerance_deg", 0.5, 45, kDegrees, level.angle_tolerance_rad);
+  level.position_tolerance_m = asked->ring_radius_m - exercise.wire->radius_m;
   level.wire = std::move(asked);
 }
 

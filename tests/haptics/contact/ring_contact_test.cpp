@@ -48,9 +48,9 @@ TEST(RingContact, IsTheSlopeOfItsEnergyAndPullsNeverAlongTheWire) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> part(-1, 1);
   for (int n = 0; n < 200; ++n) {
-    const Mat3 R = (Eigen::AngleAxisd(0.6 * part(random), Vec3::UnitY()) *
-                    Eigen::AngleAxisd(0.6 * part(random), Vec3::UnitZ()))
-                       .toRotationMatrix();
+    const Mat3 R =
+        (Eigen::AngleAxisd(0.6 * part(random), Vec3::UnitY()) * Eigen::AngleAxisd(0.6 * part(random), Vec3::UnitZ()))
+            .toRotationMatrix();
     const Vec3 way(0, part(random), part(random));
     const Pose X = centred_at(ring, way.normalized() * (kPlay + 0.003), R);
     const RingTouch touch = touch_ring(ring, X, {});

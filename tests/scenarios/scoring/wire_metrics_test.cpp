@@ -43,9 +43,9 @@ TEST(WireTouchShare, StayingWithoutTouchingBuysNothingBack) {
 }
 
 TEST(WireMetrics, CountTouchesAndTakeTheMeanAngle) {
-  auto events = whole_run(10, {made_event(1, "TARGET_LIT", 0), made_event(2, "WIRE_TOUCHED", 0),
-                               made_event(3, "WIRE_TOUCHED", 0), made_event(4, "ANGLE_ERROR", 0),
-                               made_event(5, "ANGLE_ERROR", 1)});
+  auto events =
+      whole_run(10, {made_event(1, "TARGET_LIT", 0), made_event(2, "WIRE_TOUCHED", 0), made_event(3, "WIRE_TOUCHED", 0),
+                     made_event(4, "ANGLE_ERROR", 0), made_event(5, "ANGLE_ERROR", 1)});
   for (Event& event : events)
     if (event.type == "ANGLE_ERROR") event.value = event.object == 0 ? 0.1 : 0.3;
   const auto metrics = compute_metrics(touching(10, 0, 0), events, wire());

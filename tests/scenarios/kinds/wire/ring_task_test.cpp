@@ -72,8 +72,7 @@ TEST_F(RingTest, FromEndToEndPassesEveryGateOnce) {
   EXPECT_EQ(director_.status().phase, Phase::kDone);
   EXPECT_EQ(count("TARGET_HELD"), 21);
   EXPECT_EQ(count("WIRE_TOUCHED") + count("RING_OFF"), 0);
-  for (const Event& e : director_.events())
-    EXPECT_TRUE(e.type != "ANGLE_ERROR" || e.value < 0.03) << e.value;
+  for (const Event& e : director_.events()) EXPECT_TRUE(e.type != "ANGLE_ERROR" || e.value < 0.03) << e.value;
   const ScoringContext context =
       scoring_context(exercise_, level_, board_, director_.events(), AttemptStatus::kCompleted);
   EXPECT_TRUE(context.ring_on_wire);
