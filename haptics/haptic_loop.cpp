@@ -80,6 +80,10 @@ bool is_sound(const ContactPatch& patch, bool triangles) {
   for (const ContactMaterial& m : patch.material) {
     sum += m.stiffness_n_per_m + m.damping_s_per_m + m.mu_static + m.mu_dynamic + m.stribeck_m_s;
   }
+  const RingOnWire& ring = patch.ring;
+  if (ring.count < 0 || ring.count > RingOnWire::kMostPoints) return false;
+  sum += (ring.centre_I + ring.normal_I).sum() + ring.play_m + ring.stiffness_n_per_m + ring.damping_s_per_m;
+  for (std::int32_t i = 0; i < ring.count; ++i) sum += ring.point_T[static_cast<std::size_t>(i)].sum();
   for (int i = 0; triangles && i < patch.count; ++i) {
     const PatchTriangle& t = patch.triangle[i];
     if (t.material < 0 || t.material >= kMaxPatchMaterials) return false;

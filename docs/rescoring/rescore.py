@@ -45,7 +45,7 @@ class Attempt:
         events = [dict(t=number(r["t_s"]), type=r["type"], severity=r["severity"], object=int(r["object"]),
                        value=number(r["value"])) for r in rows(folder / "events.csv")]
         samples = [dict(t=number(r["t_s"]), tip=vector(r, "tip", "m"), force=math.hypot(*vector(r, "force", "n")),
-                        grip=number(r["grip_n"])) for r in rows(folder / "trace.csv")]
+                        grip=number(r["grip_n"]), contact=r["contact"] in ("1", "true")) for r in rows(folder / "trace.csv")]
         # Only what lies between START and DONE or TIMEOUT is graded.
         start = next((e["t"] for e in events if e["type"] == "START"), None)
         end = next((e["t"] for e in events if start is not None and e["type"] in ("DONE", "TIMEOUT")
@@ -218,6 +218,20 @@ def mean_value(attempt, kind, factor=1.0):
     return factor * (sum(values) / len(values)) if values else None
 
 
+def wire_touch_share(attempt):
+    """Gate by gate from its TARGET_LIT to the next: time in contact over that of an unhurried way, 1 at most."""
+    lit, t = [e["t"] for e in attempt.events if e["type"] == "TARGET_LIT"], attempt.times
+    shares, k = [], 1
+    for i, since in enumerate(lit):
+        to, touching = lit[i + 1] if i + 1 < len(lit) else t[-1], 0.0
+        while k < len(t) and t[k] <= to:
+            if attempt.samples[k]["contact"] and t[k] > since:
+                touching += t[k] - t[k - 1]
+            k += 1
+        shares.append(min(1.0, touching / attempt.context["counted_hold_s"]))
+    return sum(shares) / len(shares) if shares else None
+
+
 def path_ratio(attempt):
     length, ideal = path_length(attempt), ideal_length(attempt.context)
     return length / ideal if length and ideal > 0 else None
@@ -238,6 +252,9 @@ METRICS = {
     "matched_in_time_share": matched_in_time_share,
     "position_error_m": lambda a: mean_value(a, "POSITION_ERROR"),
     "angle_error_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+    "wire_touch_share": wire_touch_share,
+    "wire_touches": lambda a: a.count("WIRE_TOUCHED"),
+    "ring_angle_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
 }
 
 

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "haptics/contact/half_spaces.h"
+#include "haptics/contact/ring_contact.h"
 #include "haptics/contact/segment_triangle.h"
 
 namespace trocar {
@@ -50,6 +51,7 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   glide_.pulled(Vec3::Zero());
   ContactResult result = law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
   if (patch.hold.stiffness_n_per_m > 0) add_hold(X_TI, patch.hold, result);
+  if (newest.ring.count > 1) add_ring(X_TI, V_TI_T, newest.ring, result);
   if (glide_.force_share() < 1) fade(result);
   return result;
 }
@@ -68,6 +70,20 @@ void ContactRenderer::add_hold(const Pose& X_TI, const GripHold& hold, ContactRe
   result.point_T = point;
   result.normal_T = stretch.normalized();
   result.depth_m = stretch.norm();
+}
+
+void ContactRenderer::add_ring(const Pose& X_TI, const Twist& V_TI_T, const RingOnWire& ring, ContactResult& result) {
+  const RingTouch touch = touch_ring(ring, X_TI, V_TI_T);
+  if (touch.depth_m <= 0) return;
+  result.F_I_T = result.F_I_T + touch.spring_I_T * touch.damping_factor;
+  result.spring_I_T = result.spring_I_T + touch.spring_I_T;
+  result.stored_j += touch.stored_j;
+  if (result.contact) return;
+  result.contact = result.tip_contact = true;  // the ring, not the shaft
+  result.damping_factor = touch.damping_factor;
+  result.point_T = touch.point_T;
+  result.normal_T = touch.normal_T;
+  result.depth_m = touch.depth_m;
 }
 
 void ContactRenderer::fade(ContactResult& result) {

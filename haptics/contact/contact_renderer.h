@@ -87,6 +87,8 @@ class ContactRenderer {
 
   /// What tissue in the grip of the jaws does on the instrument.
   void add_hold(const Pose& X_TI, const GripHold& hold, ContactResult& result);
+  /// What the wire does on a ring round it (ring_contact.h).
+  void add_ring(const Pose& X_TI, const Twist& V_TI_T, const RingOnWire& ring, ContactResult& result);
   /// Weakens everything by what is left of the force without new patches.
   void fade(ContactResult& result);
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);

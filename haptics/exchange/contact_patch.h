@@ -14,6 +14,7 @@
 
 #include "haptics/exchange/material_point.h"
 #include "haptics/exchange/patch_balls.h"
+#include "haptics/exchange/ring_on_wire.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -78,6 +79,7 @@ struct ContactPatch {
   GripBlock grip;
   HeldObject held;
   GripHold hold;
+  RingOnWire ring;
   PatchBalls balls;  ///< enclose() last; a patch whose balls are not of its stamp and count does without, only slower
 
   /// Takes all triangles out.
@@ -86,6 +88,7 @@ struct ContactPatch {
     moving = false;
     glide_s = given_j = 0;
     hold = {};
+    ring.count = 0;
   }
   /// Of the i-th triangle.
   std::array<Vec3, 3> corners(std::int32_t i) const { return at_corners(vertex, i); }

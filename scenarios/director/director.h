@@ -92,6 +92,7 @@ struct DirectorStatus {
   int mark_count = 0;                                ///< ... so many
   double peak_force_n = 0;
   GripBlock grip;             ///< between the jaws now
+  RingOnWire ring;            ///< wire: the ring that the instrument holds; no points while it is off the wire
   std::string message, hint;  ///< toast, empty when none
   bool warning = false;
 };

@@ -107,6 +107,7 @@ std::string scoring_context_json(const ScoringContext& context) {
   json["counted_hold_s"] = context.counted_hold_s;
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
+  if (context.ring_on_wire) json["ring_on_wire"] = true;
   if (context.room_share) json["room_share"] = *context.room_share;
   return json.dump();
 }
@@ -126,6 +127,7 @@ ScoringContext parse_scoring_context(const std::string& text, const std::string&
     context.counted_hold_s = json.value("counted_hold_s", 0.0);
     context.objects_total = json.at("objects_total").get<int>();
     context.objects_done = json.at("objects_done").get<int>();
+    context.ring_on_wire = json.value("ring_on_wire", false);
     if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
     require_finite(context);
     return context;

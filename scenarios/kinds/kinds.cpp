@@ -7,11 +7,13 @@
 #include "scenarios/kinds/reach/reach_kind.h"
 #include "scenarios/kinds/retract/retract_kind.h"
 #include "scenarios/kinds/touch/touch_kind.h"
+#include "scenarios/kinds/wire/wire_kind.h"
 
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind(), retract_kind(), camera_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(),  touch_kind(), grasp_kind(),
+                                                  camera_kind(), wire_kind(),  retract_kind()};
   return kinds;
 }
 

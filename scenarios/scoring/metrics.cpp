@@ -154,6 +154,16 @@ constexpr MetricDefinition kCatalogue[] = {
     {"wall_contacts", "1", "times that the lens touched a cup or the plate", "count of WALL_CONTACT", kLess, kErrors},
     {"view_jerks", "1", "peaks of the lit sphere's speed in the picture, while it is lit; mean over spheres",
      "mean over objects of the last VIEW_JERKS", kLess},
+    {"wire_touch_share", "1",
+     "time in which the ring touches the wire at a gate, over that of an unhurried way there, 1 at most; mean over "
+     "gates",
+     "mean over gates of min(1, touching / unhurried)", kLess, kErrors},
+    {"wire_touches", "1", "times that the ring touched the wire for longer than 20 ms", "count of WIRE_TOUCHED", kLess,
+     kErrors},
+    {"ring_angle_deg", "deg", "angle between the ring's normal and the wire, mean over the wire passed",
+     "mean of ANGLE_ERROR", kLess},
+    {"touches_times_time_s", "s", "touches of the wire times the time: what haste gains by touching it does not lower",
+     "wire_touches x time_s", kLess, kErrors},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -243,6 +253,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_grasp_metrics(graded, graded_events, context, metrics);
   add_retract_metrics(graded_events, metrics);
   add_camera_metrics(graded, graded_events, context, metrics);
+  add_wire_metrics(graded, graded_events, context, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -39,7 +39,8 @@ std::optional<double> in_time_share(const std::vector<Event>& events, const Scor
 }  // namespace
 
 void add_pose_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink) {
-  const auto angle = mean_value(events, event_type::kAngleError);
+  // On a wire the same event tells of the ring alone: ring_angle_deg.
+  const auto angle = context.ring_on_wire ? std::nullopt : mean_value(events, event_type::kAngleError);
   sink.push_back({"matched_in_time_share", in_time_share(events, context), "1"});
   sink.push_back({"position_error_m", mean_value(events, event_type::kPositionError), "m"});
   sink.push_back(

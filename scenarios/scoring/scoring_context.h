@@ -32,6 +32,7 @@ struct ScoringContext {
   Vec3 approach_T = Vec3::UnitZ();   ///< direction in which the instrument withdraws
   std::vector<Vec3> waypoints;       ///< start, then the targets that were held, in lit order
   std::optional<double> room_share;  ///< of the region, where the device can give the soft limit
+  bool ring_on_wire = false;         ///< metrics of ring and wire are defined
   int objects_total = 0, objects_done = 0;
 
   bool operator==(const ScoringContext&) const = default;

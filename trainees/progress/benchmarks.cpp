@@ -131,6 +131,7 @@ LawfulRange lawful_range(const std::string& metric) {
   if (metric == "score") return {0, 100, true};
   if (metric == "sparc" || metric == "ldlj") return {0, 0, false};
   if (metric == "angle_error_deg") return {0, 180, true};
+  if (metric == "ring_angle_deg") return {0, 90, true};
   if (metric.ends_with("_share") || metric == "economy") return {0, 1, true};
   return {0, std::nullopt, true};
 }

@@ -68,6 +68,11 @@ void StateHash::add(const ContactPatch& patch) {
   add(patch.held.radius_m);
   add(patch.grip.thickness_m);
   add(patch.grip.stiffness_n_per_m);
+  if (patch.ring.count == 0) return;  // runs without a wire keep their hash
+  for (std::int32_t i = 0; i < patch.ring.count; ++i) add(patch.ring.point_T[static_cast<std::size_t>(i)]);
+  add(patch.ring.centre_I);
+  add(patch.ring.normal_I);
+  for (const double value : {patch.ring.play_m, patch.ring.stiffness_n_per_m, patch.ring.damping_s_per_m}) add(value);
 }
 
 void StateHash::add(const TissueFrame& frame) {

@@ -59,6 +59,7 @@ class TissueTask final : public Task {
     director_.update(state.stylus, &world_->frame());
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
+    patch.ring = director_.status().ring;
     hash_.add(patch);
     hash_.add(world_->frame());
     for (const NodePlace& node : world_->shape().thin_T) hash_.add(node);

@@ -148,6 +148,11 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (is_window_share(m))
     return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
   if (m == "crushed") return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  if (m == "wire_touch_share")
+    return words("Try next: where the ring touches stop, ease it back to the middle, and only then go on.");
+  if (m == "wire_touches") return words("Try next: look at the gap all round the ring and keep it even as you go.");
+  if (m == "ring_angle_deg")
+    return words("Try next: begin to roll before a bend, so that the ring stands across the wire all the way round.");
   if (m == "block_regrasps")
     return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
   if (m == "objects_done_share") return placing_advice(a);
@@ -205,6 +210,9 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
   if (is_window_share(m)) return count_of_grip(a, row);
   if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});
+  if (m == "wire_touches")
+    return words(row.raw == 1 ? "The ring touched once." : "The ring touched {0} times.", {row.value});
+  if (m == "ring_angle_deg") return words("The ring stood {0} off square on average.", {row.value});
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);

@@ -122,6 +122,8 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kLost) return words("Block lost");
   if (type == event_type::kPlaced) return words("Block placed");
   if (type == event_type::kMisplaced) return words("Block misplaced");
+  if (type == event_type::kWireTouched) return words("Wire touched");
+  if (type == event_type::kRingOff) return words("Ring off the wire");
   if (type == event_type::kRegrasp) return words("Grasped again");
   if (type == event_type::kWrongBlock) return words("Wrong block");
   if (type == event_type::kRemoved) return words("Placed block taken away");

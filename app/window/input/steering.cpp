@@ -409,7 +409,9 @@ struct Steering::State {
       far = out.norm() > 1e-6 ? Vec3(out.normalized()) : far0;
       wanted_lean_T = lean_T = Vec3::Zero();
     }
-    intent.X_TI.R = swing(far0, far) * X_TI_begin.R * Eigen::AngleAxisd(roll, Vec3::UnitZ()).toRotationMatrix();
+    const auto about = [&](const Vec3& axis) { return Eigen::AngleAxisd(roll, axis).toRotationMatrix(); };
+    intent.X_TI.R = reach.rolls_stylus ? Mat3(about(Vec3::UnitY()) * swing(far0, far) * X_TI_begin.R)
+                                       : Mat3(swing(far0, far) * X_TI_begin.R * about(Vec3::UnitZ()));
   }
 
   void move_scope(double dt_s, double height_px) {

@@ -20,6 +20,9 @@ SteeringReach steering_reach(const Exercise& exercise, const ExerciseLevel& leve
   if (level.mapping == Mapping::kFulcrum) {
     reach.port_T = level.port_m;
     reach.most_roll_rad = kRollThroughPort;
+  } else if (exercise.wire) {
+    reach.rolls_stylus = true;
+    reach.most_roll_rad = kRollThroughPort;
   }
   return reach;
 }

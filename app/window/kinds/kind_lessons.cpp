@@ -10,9 +10,11 @@ KindLesson touch_lesson();
 KindLesson grasp_lesson();
 KindLesson retract_lesson();
 KindLesson camera_lesson();
+KindLesson wire_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson(), retract_lesson(), camera_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(),  touch_lesson(), grasp_lesson(),
+                                               camera_lesson(), wire_lesson(),  retract_lesson()};
   return lessons;
 }
 

@@ -10,6 +10,7 @@
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/metrics.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -82,7 +83,7 @@ TEST(Catalogue, JsonOfALevelHoldsMappingBandsAndRubric) {
       EXPECT_EQ(said.at("name"), level.name);
       EXPECT_EQ(said.at("exam").get<bool>(), level.name == "exam");
       EXPECT_EQ(said.contains("port_m"), level.mapping == Mapping::kFulcrum);
-      EXPECT_EQ(said.contains("angle_tolerance_rad"), exercise.kind == ExerciseKind::kReach);
+      EXPECT_EQ(said.contains("angle_tolerance_rad"), kind_of(exercise).oriented);
       EXPECT_EQ(said.contains("bands_n") ? said.at("bands_n").size() : 0, level.bands.size());
       EXPECT_EQ(said.at("force_scale").is_string(), level.force_scale <= 0) << "auto, or the number";
     }

@@ -20,6 +20,7 @@
 #include "app/window/run/hud_words.h"
 #include "app/window/run/overlays.h"
 #include "app/window/run/run_screen.h"
+#include "scenarios/kinds/kind.h"
 #include "tests/app/session/playback/playback_samples.h"
 #include "tests/app/window/pages/page_bench.h"
 #include "tests/app/window/pages/practice_bench.h"
@@ -300,7 +301,7 @@ TEST(EverySizeOfDisplay, KeepsItsGaugesAndNumbers) {
       moment.status.excess_forces = 11;
       moment.status.hold_progress = 0.72;
       moment.status.position_error_m = 0.1037;
-      moment.status.demand.oriented = exercise.kind == ExerciseKind::kReach;
+      moment.status.demand.oriented = kind_of(exercise).oriented;
       moment.status.demand.radius_m = 0.003;
       moment.status.demand.angle_tolerance_rad = 0.1745;
       moment.status.demand.band = {0.45, 0.75};
