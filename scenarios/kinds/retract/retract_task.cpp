@@ -101,7 +101,8 @@ void RetractTask::update(const TaskInput& input, EventLog& log) {
   light(log);
 }
 
-void RetractTask::describe_message(double pull_n, DirectorStatus& status) const {
+void RetractTask::describe_message(const StylusState& stylus, DirectorStatus& status) const {
+  const double pull_n = stylus.F_I_T.force.norm();
   const std::string pull = "Pull with " + band_text(band_) + ".";
   if (complete()) return say(status, "Let it down and let go", "Slowly, until it lies as before.");
   if (!holds_) {
@@ -110,6 +111,8 @@ void RetractTask::describe_message(double pull_n, DirectorStatus& status) const 
   }
   if (slipping_) return say(status, "It slips - hold it tighter", pull, true);
   const bool shown = display_ != "after";
+  if (shown && stylus.grip_force_n < rules_.grip_low_n)
+    return say(status, "Hold it tighter", "Grip with " + band_text({rules_.grip_low_n, rules_.grip_high_n}) + ".", true);
   if (shown && pull_n > band_.high_n) return say(status, "A little softer", pull);
   if (!enough()) return say(status, "Lift it further", pull);
   if (shown && pull_n < band_.low_n) return say(status, "A little more", pull);
@@ -135,7 +138,7 @@ void RetractTask::describe(const TaskInput& input, DirectorStatus& status) const
   status.cue = complete() ? Cue::kLower : firm_ ? Cue::kLift : Cue::kTake;
   const double pull = input.stylus.F_I_T.force.norm();
   status.force_shown = force_shown(display_, holds_ && (pull < band_.low_n || pull > band_.high_n));
-  describe_message(pull, status);
+  describe_message(input.stylus, status);
 }
 
 }  // namespace trocar

@@ -35,7 +35,7 @@ class RetractTask final : public ExerciseTask {
   void follow_grip(const TaskInput& input, EventLog& log);
   void follow_lift(const TaskInput& input, EventLog& log);
   void judge_pull(double force_n, double dt_s, EventLog& log);
-  void describe_message(double pull_n, DirectorStatus& status) const;
+  void describe_message(const StylusState& stylus, DirectorStatus& status) const;
 
   RetractRules rules_;
   std::vector<Target> places_;

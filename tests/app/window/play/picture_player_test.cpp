@@ -102,7 +102,6 @@ constexpr int kShortTries = 3;
 TEST_F(PicturePlay, PassesReachAndOrient) { passes("E01", Task::kReach, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesSurfaceTouch) { passes("E02", Task::kTouch, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesLimitedGrasp) { passes("E03", Task::kGrasp, kShortTries, 7, InputKind::kMouse); }
-TEST_F(PicturePlay, PassesRetractAndHold) { passes("E09", Task::kRetract, kShortTries, 7, InputKind::kMouse); }
 TEST_F(PicturePlay, PassesSurfaceTouchByKeys) { passes("E02", Task::kTouch, kShortTries, 7, InputKind::kKeyboard); }
 TEST_F(PicturePlay, PassesReachAndOrientByPad) { passes("E01", Task::kReach, kShortTries, 7, InputKind::kPad); }
 
