@@ -55,7 +55,11 @@ KindPicture retract_picture() {
           .bars = retract_bars,
           .add_objects = add_goal,
           .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
-          .telling = [](const SessionView& view) { return view.director.status().hold_progress >= kTellingHeld; }};
+          .telling =
+              [](const SessionView& view) {
+                const DirectorStatus& status = view.director.status();
+                return status.cue == Cue::kLift && status.hold_progress >= kTellingHeld;
+              }};
 }
 
 }  // namespace trocar

@@ -25,19 +25,18 @@ void add_retract_limits(const Translator& w, const Exercise& e, const ExerciseLe
 }  // namespace
 
 KindLesson retract_lesson() {
-  return {.kind = ExerciseKind::kRetract,
-          .skill = [](const Translator& w) { return w("Skill: showing what lies behind, and sparing what you hold."); },
-          .steps = retract_steps,
-          .add_limits = add_retract_limits,
-          .display = {words("Take the tissue at the lit disc"), words("Open jaws on it, press a little, close."),
-                      words("Take it again"), words("It was lost: hold it tighter, and calmly."),
-                      words("It slips - hold it tighter"), words("Pull with {0}."),
-                      words("Hold it tighter"),
-                      words("Grip with {0}."), words("A little softer"),
-                      words("A little more"), words("Lift it further"), words("Let it down and let go"),
-                      words("Slowly, until it lies as before."), words("Good - hold"),
-                      words("Take, lift and hold the tissue"), words("Let it down"), words("Exposed"),
-                      words("Holds lost"), words("Pull")}};
+  return {
+      .kind = ExerciseKind::kRetract,
+      .skill = [](const Translator& w) { return w("Skill: showing what lies behind, and sparing what you hold."); },
+      .steps = retract_steps,
+      .add_limits = add_retract_limits,
+      .display = {words("Take the tissue at the lit disc"), words("Open jaws on it, press a little, close."),
+                  words("Take it again"), words("It was lost: hold it tighter, and calmly."),
+                  words("It slips - hold it tighter"), words("Pull with {0}."), words("Hold it tighter"),
+                  words("Grip with {0}."), words("A little softer"), words("A little more"), words("Lift it further"),
+                  words("Let it down and let go"), words("Slowly, until it lies as before."), words("Good - hold"),
+                  words("Take, lift and hold the tissue"), words("Let it down"), words("Exposed"), words("Holds lost"),
+                  words("Pull")}};
 }
 
 }  // namespace trocar

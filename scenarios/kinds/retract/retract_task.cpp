@@ -112,7 +112,8 @@ void RetractTask::describe_message(const StylusState& stylus, DirectorStatus& st
   if (slipping_) return say(status, "It slips - hold it tighter", pull, true);
   const bool shown = display_ != "after";
   if (shown && stylus.grip_force_n < rules_.grip_low_n)
-    return say(status, "Hold it tighter", "Grip with " + band_text({rules_.grip_low_n, rules_.grip_high_n}) + ".", true);
+    return say(status, "Hold it tighter", "Grip with " + band_text({rules_.grip_low_n, rules_.grip_high_n}) + ".",
+               true);
   if (shown && pull_n > band_.high_n) return say(status, "A little softer", pull);
   if (!enough()) return say(status, "Lift it further", pull);
   if (shown && pull_n < band_.low_n) return say(status, "A little more", pull);
