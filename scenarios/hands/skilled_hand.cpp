@@ -53,6 +53,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight, kInVain}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv, 0, kInVain}),
       blocks_(skill_),
+      search_(skill_),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
 }
@@ -144,6 +145,8 @@ void SkilledHand::begin_task(const Percept& percept) {
       step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
     case HandJob::Kind::kSearch:
+      block_intent_ = {{intent_R_, intent_T_}, jaw_m_};
+      return search_.begin(percept, block_intent_, random_);
     case HandJob::Kind::kLift:
     case HandJob::Kind::kNothing:
       step_ = Step::kStill;
@@ -227,6 +230,15 @@ HandIntent SkilledHand::move_block(const Percept& percept, double dt_s) {
   return intent;
 }
 
+HandIntent SkilledHand::feel_for(const Percept& percept, double dt_s) {
+  search_.update(percept, senses_, dt_s, block_intent_, random_);
+  intent_T_ = block_intent_.X_TI.p;
+  jaw_m_ = block_intent_.jaw_opening_m;
+  HandIntent intent = block_intent_;
+  intent.X_TI.p += tremor(time_s_);
+  return intent;
+}
+
 /// Until the next cue is noticed the person still attends to the old target.
 Percept SkilledHand::attend(const Percept& percept) {
   if (senses_.seen() == task_) attended_ = percept;
@@ -249,13 +261,15 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   }
   time_s_ += dt_s;
   in_step_s_ += dt_s;
-  senses_.set_used_to_it(step_ != Step::kPress);
+  const bool searching = task_.kind == HandJob::Kind::kSearch;
+  senses_.set_used_to_it(searching ? !search_.pressing() : step_ != Step::kPress);
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
   if (task_.kind == HandJob::Kind::kBlock) return move_block(attend(percept), dt_s);
+  if (task_.kind == HandJob::Kind::kSearch) return feel_for(attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};

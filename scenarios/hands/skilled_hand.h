@@ -14,6 +14,7 @@
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/turn_plan.h"
 #include "scenarios/kinds/grasp/grasp_job.h"
+#include "scenarios/kinds/palpate/palpate_job.h"
 
 namespace trocar {
 
@@ -38,6 +39,7 @@ class SkilledHand : public Hand {
   void press(const Percept& percept, double dt_s);
   void squeeze(const Percept& percept, double dt_s);
   HandIntent move_block(const Percept& percept, double dt_s);
+  HandIntent feel_for(const Percept& percept, double dt_s);
   void on_unexpected_touch(const Percept& percept);
   void draw_anew(std::uint64_t part);
   void start_pressing(const Percept& percept);
@@ -51,7 +53,8 @@ class SkilledHand : public Hand {
   HandSenses senses_;
   ForceGrip press_, squeeze_;
   GraspJob blocks_;
-  HandIntent block_intent_;  ///< of the job with blocks, without tremor
+  PalpateJob search_;
+  HandIntent block_intent_;  ///< of the job with blocks, or of the search, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
   HandJob task_;

@@ -3,13 +3,14 @@
 #include "scenarios/director/director.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/palpate/palpate_kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
 #include "scenarios/kinds/touch/touch_kind.h"
 
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(), grasp_kind(), palpate_kind()};
   return kinds;
 }
 

@@ -55,6 +55,7 @@ void add_pose_metrics(const std::vector<Event>& events, const ScoringContext& co
 void add_rest_metric(const Trace& trace, const std::vector<Event>& events, MetricSink& sink);
 void add_grasp_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                        MetricSink& sink);
+void add_palpate_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

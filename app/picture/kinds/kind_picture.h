@@ -30,6 +30,8 @@ struct KindPicture {
   Eigen::AlignedBox3d (*work)(const Scene&);
   /// A moment that tells what is done here, once half of the targets are.
   bool (*telling)(const SessionView&);
+  /// On the organ, beside the board's targets; nullptr: nothing.
+  void (*add_marks)(const SessionView&, std::vector<TargetMark>&) = nullptr;
 };
 
 const KindPicture& picture_of(const Exercise&);
