@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace trocar {
 namespace {
@@ -10,7 +12,7 @@ constexpr double kRasterFinest = 0.006, kRasterShare = 0.011;  // m of pitch, an
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;        // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
-constexpr double kFeelTouch = 0.12;     // N that counts as feeling the tissue
+constexpr double kFeelTouch = 0.20;     // N that counts as feeling the tissue: more than the arm drags
 constexpr double kDeepest = 0.035;      // m of coming down without meeting any
 constexpr double kGoodGoal = 0.15;      // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
@@ -24,6 +26,7 @@ constexpr double kFeelJawSpeed = 0.030, kFeelClosing = 0.012;      // m/s, free 
 constexpr double kPinchLow = 0.8, kPinchHigh = 1.6;                // N, well above what marks
 constexpr double kPinchFelt = 0.12;                                // N
 constexpr double kLongestPinch = 6;                                // s
+constexpr double kFeelSideGain = 4;                                // 1/s
 constexpr int kBesides = 4;
 
 }  // namespace
@@ -137,7 +140,8 @@ void PalpateJob::judge(HandRandom& random) {
   const double depth = std::max(0.001, depth_sum_ / judged_);
   const double stiffness = force_sum_ / judged_ / depth * random.log_normal(kFeelJudgement * skill_.force_cv);
   if (felt_count_ < kMostFelt)
-    felt_[felt_count_++] = {Vec3(place_sum_x_ / judged_, place_sum_y_ / judged_, touched_z_), stiffness};
+    if (getenv("PALP")) fprintf(stderr, "felt aim %d at %.1f %.1f z %.1f  F %.2f goal %.2f depth %.1f k %.1f t %.2f\n", int(aim_), 1e3*place_sum_x_/judged_, 1e3*place_sum_y_/judged_, 1e3*touched_T_.z(), force_sum_/judged_, press_.goal_n(), 1e3*depth, stiffness, in_step_s_),
+    felt_[felt_count_++] = {Vec3(place_sum_x_ / judged_, place_sum_y_ / judged_, touched_T_.z()), stiffness};
 }
 
 void PalpateJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -145,7 +149,10 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
   in_step_s_ += dt_s;
   const double k = skill_.speed_factor;
   if (step_ != Step::kPinch) intent.jaw_opening_m = std::min(kFeelOpenJaw, intent.jaw_opening_m + kFeelJawSpeed * dt_s);
-  if (pressing()) intent.X_TI.p.z() -= press_.speed(senses.force_n(), dt_s, random) * dt_s;
+  if (pressing()) {  // down, and held where the tissue was met: it is slippery, and it slopes
+    intent.X_TI.p.z() -= press_.speed(senses.force_n(), dt_s, random) * dt_s;
+    intent.X_TI.p.head<2>() += kFeelSideGain / k * dt_s * (touched_T_ - percept.tip_T).head<2>();
+  }
   switch (step_) {
     case Step::kReach:
       intent.X_TI.p = plan_.at(in_step_s_);
@@ -162,8 +169,8 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
     case Step::kDescend:
       intent.X_TI.p.z() -= skill_.approach_speed_mps / k * dt_s;
       if (senses.touch_n() > kFeelTouch) {
-        touched_z_ = percept.tip_T.z();
-        surface_z_ = touched_z_;
+        touched_T_ = percept.tip_T;
+        surface_z_ = touched_T_.z();
         press_.begin(percept.band_low_n, percept.band_high_n, random);
         force_sum_ = depth_sum_ = place_sum_x_ = place_sum_y_ = judged_s_ = 0;
         judged_ = 0;
@@ -176,7 +183,7 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       if (judged_ == 0 && !there && in_step_s_ < kLongestPress * k) return;
       if (judged_ == 0 && in_step_s_ < 0.4) return;
       force_sum_ += senses.force_n();
-      depth_sum_ += touched_z_ - percept.tip_T.z();
+      depth_sum_ += touched_T_.z() - percept.tip_T.z();
       place_sum_x_ += percept.tip_T.x();
       place_sum_y_ += percept.tip_T.y();
       ++judged_;

@@ -57,8 +57,8 @@ class PalpateJob {
   Aim aim_ = Aim::kRaster;
   int side_ = 1, raster_ = 0, beside_ = 0, corrections_ = 0;
   double pitch_m_ = 0;
-  Vec3 goal_T_ = Vec3::Zero(), chosen_T_ = Vec3::Zero();
-  double surface_z_ = 0, touched_z_ = 0;
+  Vec3 goal_T_ = Vec3::Zero(), chosen_T_ = Vec3::Zero(), touched_T_ = Vec3::Zero();
+  double surface_z_ = 0;
   bool begun_ = false;
   double in_step_s_ = 0, judged_s_ = 0, force_sum_ = 0, depth_sum_ = 0, place_sum_x_ = 0, place_sum_y_ = 0;
   int judged_ = 0;
