@@ -218,6 +218,12 @@ def mean_value(attempt, kind, factor=1.0):
     return factor * (sum(values) / len(values)) if values else None
 
 
+def search_share(attempt):
+    if not attempt.count("NODULE_FOUND", "FALSE_MARK", "SEARCH_ENDED"):
+        return None
+    return (attempt.count("NODULE_FOUND") - attempt.count("FALSE_MARK")) / attempt.context["objects_total"]
+
+
 def path_ratio(attempt):
     length, ideal = path_length(attempt), ideal_length(attempt.context)
     return length / ideal if length and ideal > 0 else None
@@ -238,6 +244,8 @@ METRICS = {
     "matched_in_time_share": matched_in_time_share,
     "position_error_m": lambda a: mean_value(a, "POSITION_ERROR"),
     "angle_error_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+    "search_share": search_share,
+    "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 
 

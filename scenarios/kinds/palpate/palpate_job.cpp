@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace trocar {
 namespace {
@@ -140,7 +138,6 @@ void PalpateJob::judge(HandRandom& random) {
   const double depth = std::max(0.001, depth_sum_ / judged_);
   const double stiffness = force_sum_ / judged_ / depth * random.log_normal(kFeelJudgement * skill_.force_cv);
   if (felt_count_ < kMostFelt)
-    if (getenv("PALP")) fprintf(stderr, "felt aim %d at %.1f %.1f z %.1f  F %.2f goal %.2f depth %.1f k %.1f t %.2f\n", int(aim_), 1e3*place_sum_x_/judged_, 1e3*place_sum_y_/judged_, 1e3*touched_T_.z(), force_sum_/judged_, press_.goal_n(), 1e3*depth, stiffness, in_step_s_),
     felt_[felt_count_++] = {Vec3(place_sum_x_ / judged_, place_sum_y_ / judged_, touched_T_.z()), stiffness};
 }
 
