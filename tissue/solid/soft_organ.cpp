@@ -84,7 +84,7 @@ struct SoftOrgan::Pressed {
   Vec3 normal, tool;
   double share = 1, stiffness = 0;
   double modulus_pa = 0;  ///< of the half-space that the tool feels there
-  double force = 0;  ///< before, then after the solve
+  double force = 0;       ///< before, then after the solve
   Vec3 tangential = Vec3::Zero();
 };
 
@@ -564,10 +564,9 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const MaterialPoint& place = touching ? strongest->place : places.front();
   if (part_of(place.triangle) != looked_at_) looks_ = 0, looked_at_ = part_of(place.triangle);
   const Part& of = part(place.triangle);
-  const double compliance = touching
-                                ? compliance_at(of, strongest->modulus_pa, strongest->shares, direction,
-                                                strongest->force / strongest->share)
-                                : compliance_at(of, modulus_at(place), shares_of(place, 0), direction, 0);
+  const double compliance = touching ? compliance_at(of, strongest->modulus_pa, strongest->shares, direction,
+                                                     strongest->force / strongest->share)
+                                     : compliance_at(of, modulus_at(place), shares_of(place, 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

@@ -7,10 +7,10 @@
 namespace trocar {
 namespace {
 
-constexpr int kBallSamples = 8;           // along each edge, as a cell's fill is sampled
+constexpr int kBallSamples = 8;            // along each edge, as a cell's fill is sampled
 constexpr double kSphereTensor = 2 / 5.0;  // of Eshelby's tensor for a sphere that keeps its volume
-constexpr double kFarBall = 12;           // contact radii from the contact, beyond which a ball is not felt: below 1 %
-constexpr double kMostTaken = 0.9;        // of the compliance, to the first order
+constexpr double kFarBall = 12;            // contact radii from the contact, beyond which a ball is not felt: below 1 %
+constexpr double kMostTaken = 0.9;         // of the compliance, to the first order
 
 /// Sums over a raster of a cube's inside.
 template <class Value>

@@ -4,8 +4,8 @@
 // 1973, volume kept: E / E_0 = 1 + f (r - 1) / (1 + 2/5 (1 - f) (r - 1)) for spheres r times as stiff). Under the tool,
 // nearer than cells can tell, a half-space under a point force bears it by a stress along the radius alone,
 // 3 F cos(angle) / (2 pi d^2) (Boussinesq, volume kept), so its energy lies in cos^2 / d^4: the share of it in a ball,
-// times 1 - 1/r, is what the ball takes from the compliance, to the first order. Within 4 a / pi of a contact of radius a
-// nothing lies: so the force's energy is that of the contact. Frame of the lattice, m. Thread: any.
+// times 1 - 1/r, is what the ball takes from the compliance, to the first order. Within 4 a / pi of a contact of radius
+// a nothing lies: so the force's energy is that of the contact. Frame of the lattice, m. Thread: any.
 #pragma once
 
 #include <span>

@@ -75,18 +75,18 @@ bool marking(const SessionView& view) {
 }  // namespace
 
 KindPicture palpate_picture() {
-  return {.kind = ExerciseKind::kPalpate,
-          .steps =
-              [](const RunStage& run) {
-                return std::vector{
-                    hud_step("Feel the region and mark what is hidden", run.done, run.started && !run.done)};
-              },
-          .rows = palpate_rows,
-          .bars = palpate_bars,
-          .add_objects = [](const SessionView&, std::vector<SceneObject>&) {},
-          .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
-          .telling = marking,
-          .add_marks = add_palpate_marks};
+  return {
+      .kind = ExerciseKind::kPalpate,
+      .steps =
+          [](const RunStage& run) {
+            return std::vector{hud_step("Feel the region and mark what is hidden", run.done, run.started && !run.done)};
+          },
+      .rows = palpate_rows,
+      .bars = palpate_bars,
+      .add_objects = [](const SessionView&, std::vector<SceneObject>&) {},
+      .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
+      .telling = marking,
+      .add_marks = add_palpate_marks};
 }
 
 }  // namespace trocar

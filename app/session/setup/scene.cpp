@@ -333,8 +333,9 @@ void soften(Scene& scene) {
 void hide(Scene& scene) {
   if (scene.board.nodules.empty()) return;
   if (!scene.soft)
-    throw InputError("exercise '" + scene.setup.exercise.id + "' hides what is stiffer in the organ; where tissue is '" +
-                     kStillTissue + "' it cannot be felt: choose another");
+    throw InputError("exercise '" + scene.setup.exercise.id +
+                     "' hides what is stiffer in the organ; where tissue is '" + kStillTissue +
+                     "' it cannot be felt: choose another");
   auto soft = std::make_shared<SoftSetup>(*scene.soft);
   for (const HiddenNodule& nodule : scene.board.nodules)
     soft->options.balls.push_back({nodule.centre_T, nodule.radius_m, nodule.stiffness_ratio});

@@ -11,8 +11,8 @@ std::vector<LessonStep> palpate_steps(const Translator& w, const Exercise& e, co
                                {newtons_between(w, rules.press_low_n, rules.press_high_n)})},
           {StepIcon::kReach, pointer ? w("See how far it gives way under the same force: less where a nodule is.")
                                      : w("Feel how far it gives way: less where a nodule is.")},
-          {StepIcon::kSqueeze, w("Mark the hardest place: keep the tip on it and pinch for {0} s.",
-                                 {brief(w, rules.mark_hold_s)})},
+          {StepIcon::kSqueeze,
+           w("Mark the hardest place: keep the tip on it and pinch for {0} s.", {brief(w, rules.mark_hold_s)})},
           {StepIcon::kWithdraw, w("The last mark ends the search; a pinch in the start ball ends it sooner.")}};
 }
 
@@ -33,24 +33,13 @@ KindLesson palpate_lesson() {
               },
           .steps = palpate_steps,
           .add_limits = add_palpate_limits,
-          .display = {words("Too hard - ease off"),
-                      words("Keep to {0}."),
-                      words("Marked"),
-                      words("Found"),
-                      words("Nothing there"),
-                      words("Marks: {0} of {1}."),
-                      words("Marks: {0} of {1}. A pinch in the start ball ends it."),
-                      words("Ending the search"),
-                      words("Marking"),
-                      words("Keep still and keep the pinch."),
-                      words("Is it harder here than beside it?"),
-                      words("Pinch to mark the place."),
-                      words("Feel for what is hidden"),
-                      words("Feel the region and mark what is hidden"),
-                      words("Marks set"),
-                      words("False marks"),
-                      words("Too much force"),
-                      words("Tip force")}};
+          .display = {words("Too hard - ease off"), words("Keep to {0}."), words("Marked"), words("Found"),
+                      words("Nothing there"), words("Marks: {0} of {1}."),
+                      words("Marks: {0} of {1}. A pinch in the start ball ends it."), words("Ending the search"),
+                      words("Marking"), words("Keep still and keep the pinch."),
+                      words("Is it harder here than beside it?"), words("Pinch to mark the place."),
+                      words("Feel for what is hidden"), words("Feel the region and mark what is hidden"),
+                      words("Marks set"), words("False marks"), words("Too much force"), words("Tip force")}};
 }
 
 }  // namespace trocar

@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kRasterFinest = 0.006, kRasterShare = 0.011;  // m of pitch, and as much more times settle_share
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
-constexpr double kClear = 0.008;        // m over the tissue between presses
-constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
-constexpr double kFeelTouch = 0.20;     // N that counts as feeling the tissue: more than the arm drags
-constexpr double kDeepest = 0.035;      // m of coming down without meeting any
-constexpr double kGoodGoal = 0.15;      // of the force aimed at: near enough to be judged
+constexpr double kClear = 0.008;                     // m over the tissue between presses
+constexpr double kFeelSeenLate = 0.16;               // s: the eyes are that late
+constexpr double kFeelTouch = 0.20;                  // N that counts as feeling the tissue: more than the arm drags
+constexpr double kDeepest = 0.035;                   // m of coming down without meeting any
+constexpr double kGoodGoal = 0.15;                   // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
 constexpr double kFeelJudgement = 0.3;               // of the force CV: error of the judged stiffness
 constexpr double kApart = 0.013;                     // m from what was marked, or felt to be nothing
@@ -42,7 +42,8 @@ void PalpateJob::enter(Step step) {
 Vec3 PalpateJob::raster_place(const Percept& percept, int index) const {
   const int row = index / side_, along = index % side_, column = row % 2 == 0 ? along : side_ - 1 - along;
   const Vec3& size = percept.object.size_m;
-  return percept.object.X_TO.p + Vec3(((column + 0.5) / side_ - 0.5) * size.x(), ((row + 0.5) / side_ - 0.5) * size.y(), 0);
+  return percept.object.X_TO.p +
+         Vec3(((column + 0.5) / side_ - 0.5) * size.x(), ((row + 0.5) / side_ - 0.5) * size.y(), 0);
 }
 
 /// Up from where the tip is, across, and to a hand's breadth over the place.

@@ -1,6 +1,7 @@
 // How a simulated person feels an organ for what is hidden in it: presses it at the points of a raster, one after the
-// other, with about the same force; judges at each how stiff it is, the felt force over the seen depth; goes back to the
-// stiffest places, presses beside them, and marks where it is stiffest by a long pinch, until the exercise has enough.
+// other, with about the same force; judges at each how stiff it is, the felt force over the seen depth; goes back to
+// the stiffest places, presses beside them, and marks where it is stiffest by a long pinch, until the exercise has
+// enough.
 //
 // A finer raster is that of a hand that is content with little error (HandSkill::settle_share); who corrects more feels
 // more often beside a place before marking it. Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's,

@@ -19,10 +19,10 @@ struct PalpateRules {
   double hit_m = 0;        ///< beyond the ball's radius, along the surface, within which a mark is a hit
   double press_low_n = 0;  ///< with which tissue is judged well
   double press_high_n = 0;
-  double mark_n = 0, mark_hold_s = 0;                  ///< pinch that sets a mark, and for how long
-  double pad_thickness_m = 0, pad_n_per_m = 0;         ///< of what is between the fingers
-  double still_m = 0;                                  ///< the tip may wander so far on the tissue during it
-  double searched_cell_m = 0, searched_n = 0;          ///< grid of the region; a cell is searched when pressed so hard
+  double mark_n = 0, mark_hold_s = 0;           ///< pinch that sets a mark, and for how long
+  double pad_thickness_m = 0, pad_n_per_m = 0;  ///< of what is between the fingers
+  double still_m = 0;                           ///< the tip may wander so far on the tissue during it
+  double searched_cell_m = 0, searched_n = 0;   ///< grid of the region; a cell is searched when pressed so hard
 };
 
 /// What a level changes.

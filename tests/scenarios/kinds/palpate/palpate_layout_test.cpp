@@ -24,7 +24,8 @@ TEST(PalpateLayout, TwentyBoardsOfEachLevel) {
     for (int number = 0; number < 20; ++number) {
       const Board board = lay_out_nodules(organ, exercise, level, number);
       ASSERT_TRUE(board.targets.empty());
-      ASSERT_EQ(board.nodules.size(), exercise.palpate->nodules.size() + static_cast<std::size_t>(level.palpate->decoys));
+      ASSERT_EQ(board.nodules.size(),
+                exercise.palpate->nodules.size() + static_cast<std::size_t>(level.palpate->decoys));
       for (std::size_t i = 0; i < board.nodules.size(); ++i) {
         const HiddenNodule& one = board.nodules[i];
         const auto top = field.top(one.centre_T.x(), one.centre_T.y());
@@ -45,7 +46,8 @@ TEST(PalpateLayout, WhatIsNoNoduleIsLessStiffAndComesLast) {
   const TriangleSurface organ = liver_like().transformed(place_organ(liver_like(), exercise.layout));
   const Board board = lay_out_nodules(organ, exercise, level, 1);
   ASSERT_EQ(board.nodules.size(), 4u);
-  for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(board.nodules[static_cast<std::size_t>(i)].stiffness_ratio, level.palpate->ratio);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_DOUBLE_EQ(board.nodules[static_cast<std::size_t>(i)].stiffness_ratio, level.palpate->ratio);
   EXPECT_DOUBLE_EQ(board.nodules[3].stiffness_ratio, level.palpate->decoy_ratio);
 }
 
