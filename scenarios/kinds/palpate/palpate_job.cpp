@@ -10,7 +10,8 @@ constexpr double kRasterFinest = 0.006, kRasterShare = 0.011;  // m of pitch, an
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;                     // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;               // s: the eyes are that late
-constexpr double kFeelTouch = 0.20;                  // N that counts as feeling the tissue: more than the arm drags
+constexpr double kFeelTouch = 0.15;     // N that counts as feeling the tissue ...
+constexpr double kSetOff = 0.15;        // s of coming down before: what the arm needs to set off is not the tissue
 constexpr double kDeepest = 0.035;                   // m of coming down without meeting any
 constexpr double kGoodGoal = 0.15;                   // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
@@ -99,7 +100,7 @@ void PalpateJob::choose(const Percept& percept, const HandIntent& intent, HandRa
   }
   if (best == nullptr) {
     left_count_ = 0;
-    raster_ = 0;
+    raster_ = 1;
     aim_ = Aim::kRaster;
     return go_to(raster_place(percept, 0), percept, intent, random);
   }
@@ -166,7 +167,7 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       return enter(Step::kDescend);
     case Step::kDescend:
       intent.X_TI.p.z() -= skill_.approach_speed_mps / k * dt_s;
-      if (senses.touch_n() > kFeelTouch) {
+      if (senses.touch_n() > kFeelTouch && in_step_s_ > kSetOff) {
         touched_T_ = percept.tip_T;
         surface_z_ = touched_T_.z();
         press_.begin(percept.band_low_n, percept.band_high_n, random);
