@@ -41,7 +41,7 @@ void add_palpate_marks(const SessionView& view, std::vector<TargetMark>& out) {
       add(view.scene.board.centre_T + off, kCornerRadius, TargetMark::State::kWaiting);
     }
   for (int i = 0; i < status.mark_count; ++i)
-    add(status.marks_T[static_cast<std::size_t>(i)], kMarkRadius, TargetMark::State::kDone);
+    add(status.marks_T[static_cast<std::size_t>(i)], kMarkRadius, TargetMark::State::kLit);
 }
 
 /// Of the tip, with the force that judges well and the limit; without a bar the pinch has none either.

@@ -6,7 +6,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kRasterFinest = 0.006, kRasterShare = 0.011;  // m of pitch, and as much more times settle_share
+constexpr double kRasterFinest = 0.0078, kRasterShare = 0.0048;  // m of pitch, and as much more times settle_share
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;                     // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;               // s: the eyes are that late
@@ -15,7 +15,7 @@ constexpr double kSetOff = 0.15;        // s of coming down before: what the arm
 constexpr double kDeepest = 0.035;                   // m of coming down without meeting any
 constexpr double kGoodGoal = 0.15;                   // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
-constexpr double kFeelJudgement = 0.3;               // of the force CV: error of the judged stiffness
+constexpr double kFeelJudgement = 0.25;              // of the force CV: error of the judged stiffness
 constexpr double kApart = 0.013;                     // m from what was marked, or felt to be nothing
 constexpr double kAbout = 0.010;                     // m round a place whose presses say where it is stiffest
 constexpr double kStiffer = 1.08;                    // over what is usual: worth a mark
@@ -130,7 +130,7 @@ void PalpateJob::begin(const Percept& percept, const HandIntent& intent, HandRan
   if (begun_) return;
   begun_ = true;
   const double pitch = kRasterFinest + kRasterShare * skill_.settle_share;
-  side_ = std::max(2, static_cast<int>(std::lround(percept.object.size_m.x() / pitch)));
+  side_ = std::max(2, static_cast<int>(std::ceil(percept.object.size_m.x() / pitch)));
   pitch_m_ = percept.object.size_m.x() / side_;
   surface_z_ = percept.object.X_TO.p.z() + kClear / 2;
   next(percept, intent, random);

@@ -54,7 +54,7 @@ TEST(PalpateLayout, WhatIsNoNoduleIsLessStiffAndComesLast) {
 TEST(PalpateLoader, ReadsTheShippedExercise) {
   const Exercise exercise = shipped();
   ASSERT_TRUE(exercise.palpate);
-  EXPECT_DOUBLE_EQ(exercise.palpate->nodules[0].radius_m, 0.008);
+  EXPECT_DOUBLE_EQ(exercise.palpate->nodules[0].radius_m, 0.009);
   EXPECT_DOUBLE_EQ(exercise.palpate->mark_hold_s, 1.5);
   EXPECT_TRUE(find_level(exercise, "L1").palpate->found_shown);
   EXPECT_FALSE(find_level(exercise, "exam").palpate->found_shown);
