@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kRasterFinest = 0.0078, kRasterShare = 0.0048;  // m of pitch, and as much more times settle_share
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
-constexpr double kClear = 0.008;                     // m over the tissue between presses
-constexpr double kFeelSeenLate = 0.16;               // s: the eyes are that late
+constexpr double kClear = 0.008;        // m over the tissue between presses
+constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
 constexpr double kFeelTouch = 0.15;     // N that counts as feeling the tissue ...
 constexpr double kSetOff = 0.15;        // s of coming down before: what the arm needs to set off is not the tissue
-constexpr double kDeepest = 0.035;                   // m of coming down without meeting any
-constexpr double kGoodGoal = 0.15;                   // of the force aimed at: near enough to be judged
+constexpr double kDeepest = 0.035;      // m of coming down without meeting any
+constexpr double kGoodGoal = 0.15;      // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
 constexpr double kFeelJudgement = 0.25;              // of the force CV: error of the judged stiffness
 constexpr double kApart = 0.013;                     // m from what was marked, or felt to be nothing
