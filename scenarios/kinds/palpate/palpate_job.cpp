@@ -11,6 +11,7 @@ constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;        // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
 constexpr double kFeelTouch = 0.15;     // N that counts as feeling the tissue ...
+constexpr double kMostRelief = 0.015;   // m of the tissue over and under the region's middle, as it is seen
 constexpr double kSetOff = 0.15;        // s of coming down before: what the arm needs to set off is not the tissue
 constexpr double kDeepest = 0.035;      // m of coming down without meeting any
 constexpr double kGoodGoal = 0.15;      // of the force aimed at: near enough to be judged
@@ -169,7 +170,8 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       intent.X_TI.p.z() -= skill_.approach_speed_mps / k * dt_s;
       if (senses.touch_n() > kFeelTouch && in_step_s_ > kSetOff) {
         touched_T_ = percept.tip_T;
-        surface_z_ = touched_T_.z();
+        const double middle = percept.object.X_TO.p.z();
+        surface_z_ = std::clamp(touched_T_.z(), middle - kMostRelief, middle + kMostRelief);
         press_.begin(percept.band_low_n, percept.band_high_n, random);
         force_sum_ = depth_sum_ = place_sum_x_ = place_sum_y_ = judged_s_ = 0;
         judged_ = 0;
