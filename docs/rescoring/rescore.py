@@ -232,6 +232,12 @@ def wire_touch_share(attempt):
     return sum(shares) / len(shares) if shares else None
 
 
+def search_share(attempt):
+    if not attempt.count("NODULE_FOUND", "FALSE_MARK", "SEARCH_ENDED"):
+        return None
+    return (attempt.count("NODULE_FOUND") - attempt.count("FALSE_MARK")) / attempt.context["objects_total"]
+
+
 def path_ratio(attempt):
     length, ideal = path_length(attempt), ideal_length(attempt.context)
     return length / ideal if length and ideal > 0 else None
@@ -255,6 +261,8 @@ METRICS = {
     "wire_touch_share": wire_touch_share,
     "wire_touches": lambda a: a.count("WIRE_TOUCHED"),
     "ring_angle_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+    "search_share": search_share,
+    "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 
 

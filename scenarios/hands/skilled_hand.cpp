@@ -54,6 +54,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv, 0, kInVain}),
       blocks_(skill_),
       tissue_(skill_),
+      search_(skill_),
       jaw_m_(kOpenJaw) {
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
 }
@@ -148,6 +149,8 @@ void SkilledHand::begin_task(const Percept& percept) {
       step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
     case HandJob::Kind::kSearch:
+      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
+      return search_.begin(percept, job_intent_, random_);
     case HandJob::Kind::kNothing:
       step_ = Step::kStill;
   }
@@ -223,6 +226,8 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
 HandIntent SkilledHand::move_job(const Percept& percept, double dt_s) {
   if (task_.kind == HandJob::Kind::kLift)
     tissue_.update(percept, senses_, dt_s, job_intent_, random_);
+  else if (task_.kind == HandJob::Kind::kSearch)
+    search_.update(percept, senses_, dt_s, job_intent_, random_);
   else
     blocks_.update(percept, senses_, dt_s, job_intent_, random_);
   intent_T_ = job_intent_.X_TI.p;
@@ -255,13 +260,18 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   }
   time_s_ += dt_s;
   in_step_s_ += dt_s;
-  senses_.set_used_to_it(step_ != Step::kPress && !(task_.kind == HandJob::Kind::kLift && tissue_.touches()));
+  const bool touching = task_.kind == HandJob::Kind::kSearch ? search_.pressing()
+                        : task_.kind == HandJob::Kind::kLift ? tissue_.touches()
+                                                             : step_ == Step::kPress;
+  senses_.set_used_to_it(!touching);
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
-  if (task_.kind == HandJob::Kind::kBlock || task_.kind == HandJob::Kind::kLift) return move_job(attend(percept), dt_s);
+  const bool job =
+      task_.kind == HandJob::Kind::kBlock || task_.kind == HandJob::Kind::kLift || task_.kind == HandJob::Kind::kSearch;
+  if (job) return move_job(attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};

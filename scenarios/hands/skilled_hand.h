@@ -14,6 +14,7 @@
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/turn_plan.h"
 #include "scenarios/kinds/grasp/grasp_job.h"
+#include "scenarios/kinds/palpate/palpate_job.h"
 #include "scenarios/kinds/retract/retract_job.h"
 
 namespace trocar {
@@ -53,7 +54,8 @@ class SkilledHand : public Hand {
   ForceGrip press_, squeeze_;
   GraspJob blocks_;
   RetractJob tissue_;
-  HandIntent job_intent_;  ///< of the job with blocks or tissue, without tremor
+  PalpateJob search_;
+  HandIntent job_intent_;  ///< of the job with blocks or tissue, or of the search, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
   HandJob task_;

@@ -164,6 +164,13 @@ constexpr MetricDefinition kCatalogue[] = {
      "mean of ANGLE_ERROR", kLess},
     {"touches_times_time_s", "s", "touches of the wire times the time: what haste gains by touching it does not lower",
      "wire_touches x time_s", kLess, kErrors},
+    {"nodules_found", "1", "hidden nodules that were marked", "count of NODULE_FOUND", kMore},
+    {"false_marks", "1", "marks where no nodule is", "count of FALSE_MARK", kLess, kErrors},
+    {"search_share", "1", "nodules found less false marks / all nodules",
+     "(count of NODULE_FOUND - count of FALSE_MARK) / all objects", kMore},
+    {"localisation_error_m", "m", "distance of a right mark from its nodule along the surface, mean over them",
+     "mean of NODULE_FOUND", kLess},
+    {"searched_share", "1", "share of the region that was pressed", "value of SEARCH_ENDED", kMore},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -254,6 +261,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_retract_metrics(graded_events, metrics);
   add_camera_metrics(graded, graded_events, context, metrics);
   add_wire_metrics(graded, graded_events, context, metrics);
+  add_palpate_metrics(graded_events, context, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -61,6 +61,7 @@ void add_camera_metrics(const Trace& trace, const std::vector<Event>& events, co
                         MetricSink& sink);
 void add_wire_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                       MetricSink& sink);
+void add_palpate_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

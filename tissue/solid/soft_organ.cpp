@@ -45,9 +45,10 @@ std::vector<Vec3> node_places(const Lattice& lattice) {
   return out;
 }
 
-std::vector<SoftCell> soft_cells(const Lattice& lattice) {
+std::vector<SoftCell> soft_cells(const Lattice& lattice, std::span<const StiffBall> balls) {
   std::vector<SoftCell> out;
-  for (const LatticeCell& cell : lattice.cells) out.push_back({cell.corners, cell.fill, cell.part});
+  for (const LatticeCell& cell : lattice.cells)
+    out.push_back({cell.corners, cell.fill, cell.part, cell_stiffness(lattice, cell, balls)});
   return out;
 }
 
@@ -82,7 +83,8 @@ struct SoftOrgan::Pressed {
   NodeShares shares;
   Vec3 normal, tool;
   double share = 1, stiffness = 0;
-  double force = 0;  ///< before, then after the solve
+  double modulus_pa = 0;  ///< of the half-space that the tool feels there
+  double force = 0;       ///< before, then after the solve
   Vec3 tangential = Vec3::Zero();
 };
 
@@ -95,7 +97,7 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, std::span
     : options_(options),
       lattice_(lattice, rest_T),
       embedded_(lattice, rest_T),
-      solid_(node_places(lattice), soft_cells(lattice), materials, options.solid),
+      solid_(node_places(lattice), soft_cells(lattice, options.balls), materials, options.solid),
       surface_(embedded_.at(solid_.position())),
       felt_(surface_->vertices) {
   for (const TissueSolid& material : materials) {
@@ -112,7 +114,7 @@ SoftOrgan::SoftOrgan(const Lattice& lattice, const SurfacePtr& rest_T, std::span
     for (const std::int32_t node : cell.corners) part_of_node_[static_cast<std::size_t>(node)] = cell.part;
   support();
   if (bed && materials.size() > 1) bed_.emplace(lattice_, *bed, std::min(materials[0].young_pa, materials[1].young_pa));
-  stiffness_ = 1 / half_space_compliance(parts_.front(), 0);
+  stiffness_ = 1 / half_space_compliance(plane_modulus(parts_.front().material), 0);
   energy_ = solid_.energy_j();
 }
 
@@ -280,15 +282,15 @@ Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> verti
   return place_at_corners(place.weight, rest()->triangles[static_cast<std::size_t>(place.triangle)], vertices);
 }
 
-double SoftOrgan::contact_radius(const Part& of, double force_n) const {
+double SoftOrgan::contact_radius(double modulus_pa, double force_n) const {
   const double radius = options_.tool_radius_m;
-  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / plane_modulus(of.material)), kLeastContact,
+  return std::clamp(std::cbrt(0.75 * std::max(0.0, force_n) * radius / modulus_pa), kLeastContact,
                     std::max(kLeastContact, radius));
 }
 
 NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) const {
   const std::int32_t own = part_of(place.triangle);
-  const double reach = kSpread * contact_radius(part(place.triangle), force_n),
+  const double reach = kSpread * contact_radius(plane_modulus(part(place.triangle).material), force_n),
                whole = 2.0 / 3 * std::numbers::pi * reach * reach;
   const std::vector<Vec3>& vertices = rest()->vertices;
   const auto& triangles = rest()->triangles;
@@ -333,20 +335,29 @@ NodeShares SoftOrgan::shares_of(const MaterialPoint& place, double force_n) cons
   return out;
 }
 
-double SoftOrgan::half_space_compliance(const Part& of, double force_n) const {
-  return 1 / (2 * plane_modulus(of.material) * contact_radius(of, force_n));
+double SoftOrgan::modulus_at(const MaterialPoint& place) const {
+  const double even = plane_modulus(part(place.triangle).material);
+  if (options_.balls.empty() || part_of(place.triangle) != 0) return even;
+  const auto& corner = rest()->triangles[static_cast<std::size_t>(place.triangle)];
+  const auto at = [&](std::size_t k) { return rest()->vertices[static_cast<std::size_t>(corner[k])]; };
+  const Vec3 inward = (at(2) - at(0)).cross(at(1) - at(0)).normalized();
+  return even * stiffer_under(place_at(place, rest()->vertices), inward, options_.tool_radius_m, options_.balls);
 }
 
-double SoftOrgan::half_space_depth(const Part& of, double force_n) const {
-  const double modulus = plane_modulus(of.material), radius = options_.tool_radius_m;
+double SoftOrgan::half_space_compliance(double modulus_pa, double force_n) const {
+  return 1 / (2 * modulus_pa * contact_radius(modulus_pa, force_n));
+}
+
+double SoftOrgan::half_space_depth(double modulus_pa, double force_n) const {
+  const double radius = options_.tool_radius_m;
   // Linear below the least and above the greatest contact, tangent to Hertz' law at both.
-  const double bounded = contact_radius(of, force_n);
-  const double there = 4.0 / 3 * modulus * bounded * bounded * bounded / radius;
-  return bounded * bounded / radius + (force_n - there) / (2 * modulus * bounded);
+  const double bounded = contact_radius(modulus_pa, force_n);
+  const double there = 4.0 / 3 * modulus_pa * bounded * bounded * bounded / radius;
+  return bounded * bounded / radius + (force_n - there) / (2 * modulus_pa * bounded);
 }
 
-double SoftOrgan::sub_cell_compliance(const Part& of, double force_n) const {
-  const double half_space = half_space_compliance(of, force_n);
+double SoftOrgan::sub_cell_compliance(double modulus_pa, double force_n) const {
+  const double half_space = half_space_compliance(modulus_pa, force_n);
   return std::max(kLeastSubCell * half_space, half_space - sub_cell_);
 }
 
@@ -403,7 +414,8 @@ std::vector<SoftOrgan::Pressed> SoftOrgan::press(const SolvedContacts& contacts)
     p.force = std::max(0.0, contact.force_T.dot(contact.normal_T));
     p.shares = shares_of(*place, elastic_part(p.force / p.share));
     p.tangential = contact.force_T - contact.force_T.dot(contact.normal_T) * contact.normal_T;
-    p.stiffness = p.share / sub_cell_compliance(part(place->triangle), elastic_part(p.force / p.share));
+    p.modulus_pa = modulus_at(*place);
+    p.stiffness = p.share / sub_cell_compliance(p.modulus_pa, elastic_part(p.force / p.share));
     pressed.push_back(std::move(p));
   }
   return pressed;
@@ -418,7 +430,8 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
     const double whole = elastic_part(p.force / p.share), slope = p.stiffness / p.share;
     const Part& of = part(p.place.triangle);
     const double carried = part_of(p.place.triangle) == memory_.part ? memory_.carried(of) : 0;
-    const double depth0 = half_space_depth(of, whole) - whole * (half_space_compliance(of, whole) - 1 / slope);
+    const double depth0 =
+        half_space_depth(p.modulus_pa, whole) - whole * (half_space_compliance(p.modulus_pa, whole) - 1 / slope);
     // The place as the middle of all that is pressed has moved.
     Vec3 there = place_at(p.place, rest()->vertices);
     for (std::size_t i = 0; i < p.shares.node.size(); ++i) {
@@ -506,14 +519,15 @@ void SoftOrgan::undo_dents(std::span<const MaterialPoint> places) {
   }
 }
 
-double SoftOrgan::compliance_at(const Part& of, const NodeShares& place, const Vec3& direction, double force_n) {
+double SoftOrgan::compliance_at(const Part& of, double modulus_pa, const NodeShares& place, const Vec3& direction,
+                                double force_n) {
   const double answer = solid_.compliance(place, direction, options_.neighbourhood_m, true);
   if (looks_++ % kStillEvery == 0) {
     const double still = solid_.compliance(place, direction, options_.neighbourhood_m, false) / of.relaxed_share;
     sub_cell_ = still + far_share(of.material.poisson) /
                             (std::numbers::pi * plane_modulus(of.material) * options_.neighbourhood_m);
   }
-  return of.relaxed_share * sub_cell_compliance(of, elastic_part(force_n)) + answer;
+  return of.relaxed_share * sub_cell_compliance(modulus_pa, elastic_part(force_n)) + answer;
 }
 
 double SoftOrgan::loop_stiffness(const NodeShares& place, const Vec3& direction, double spring_n_per_m) const {
@@ -550,9 +564,9 @@ void SoftOrgan::find_felt(std::span<const Pressed> pressed, const Vec3* tip_T) {
   const MaterialPoint& place = touching ? strongest->place : places.front();
   if (part_of(place.triangle) != looked_at_) looks_ = 0, looked_at_ = part_of(place.triangle);
   const Part& of = part(place.triangle);
-  const double compliance = touching
-                                ? compliance_at(of, strongest->shares, direction, strongest->force / strongest->share)
-                                : compliance_at(of, shares_of(place, 0), direction, 0);
+  const double compliance = touching ? compliance_at(of, strongest->modulus_pa, strongest->shares, direction,
+                                                     strongest->force / strongest->share)
+                                     : compliance_at(of, modulus_at(place), shares_of(place, 0), direction, 0);
   stiffness_ = std::min(options_.most_stiffness_n_per_m, 1 / compliance);
   // Where the loop's linear law would give another force at the tool's place, all of it moves by the difference.
   Vec3 displaced = Vec3::Zero(), shift = Vec3::Zero();

@@ -31,6 +31,7 @@
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/organ_bed.h"
 #include "tissue/solid/soft_solid.h"
+#include "tissue/solid/stiff_ball.h"
 #include "tissue/solid/tissue_material.h"
 #include "tissue/surface_snapshot.h"
 
@@ -44,6 +45,7 @@ struct SoftOrganOptions {
   double tether_n_per_m3 = 2e3;         ///< per area of a second part: what brings it back, some N/m; a choice
   double neighbourhood_m = 0.030;       ///< radius of the clamped neighbourhood
   double most_stiffness_n_per_m = 250;  ///< K_max of the loop, in scene newtons
+  std::vector<StiffBall> balls = {};    ///< in the first part: cells and the law under the tool have them
 };
 
 /// What a half-space beyond a clamped ball of radius R about a place on it adds to the place's compliance, times pi E*
@@ -137,13 +139,15 @@ class SoftOrgan {
   /// The same of all that a tool presses there with this force.
   NodeShares shares_of(const MaterialPoint& place, double force_n) const;
   /// Of the tool with a half-space, m.
-  double contact_radius(const Part& of, double force_n) const;
+  double contact_radius(double modulus_pa, double force_n) const;
+  /// Plane strain modulus of a half-space as a tool that presses there feels it, Pa.
+  double modulus_at(const MaterialPoint& place) const;
   Vec3 place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const;
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
-  double half_space_compliance(const Part& of, double force_n) const;
-  double half_space_depth(const Part& of, double force_n) const;
+  double half_space_compliance(double modulus_pa, double force_n) const;
+  double half_space_depth(double modulus_pa, double force_n) const;
   /// Of that what the lattice does not have, m/N. @param force_n elastic
-  double sub_cell_compliance(const Part& of, double force_n) const;
+  double sub_cell_compliance(double modulus_pa, double force_n) const;
   /// What of a contact's force its branches do not hold, N.
   double elastic_part(double force_n) const;
   void remember(std::span<const Pressed> pressed);
@@ -158,7 +162,8 @@ class SoftOrgan {
   /// The surface with the neighbourhoods of these places at rest, carried along as a whole.
   void undo_dents(std::span<const MaterialPoint> places);
   /// Of the place within a step of the loop, m/N. Keeps what the lattice has of it for the next solve.
-  double compliance_at(const Part& of, const NodeShares& place, const Vec3& direction, double force_n);
+  double compliance_at(const Part& of, double modulus_pa, const NodeShares& place, const Vec3& direction,
+                       double force_n);
   void support();  ///< springs to the outside
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 

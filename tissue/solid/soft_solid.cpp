@@ -95,6 +95,7 @@ SoftSolid::SoftSolid(std::span<const Vec3> nodes, std::span<const SoftCell> cell
     }
     if (cells[i].material < 0 || cells[i].material >= static_cast<std::int32_t>(materials.size()))
       throw InputError("cell " + std::to_string(i) + " of the lattice has a material that there is not");
+    if (!(cells[i].stiffness > 0)) throw InputError("cell " + std::to_string(i) + " of the lattice has no stiffness");
     order.emplace_back(interleaved(places[static_cast<std::size_t>(cells[i].node[0])]), i);
   }
   std::sort(order.begin(), order.end());
@@ -140,8 +141,9 @@ void SoftSolid::fill_lane(std::size_t number) {
   const std::size_t l = lane_[number] % kLanes;
   const SoftCell& cell = cells_[number];
   const TissueSolid& material = materials_[static_cast<std::size_t>(cell.material)];
-  const double shear = material.young_pa / (2 * (1 + material.poisson));
-  const double bulk = material.young_pa / (3 * (1 - 2 * material.poisson));
+  const double young = cell.stiffness * material.young_pa;
+  const double shear = young / (2 * (1 + material.poisson));
+  const double bulk = young / (3 * (1 - 2 * material.poisson));
   history.mu[l] = static_cast<float>(cell.fill * options_.edge_m * shear);
   history.kappa[l] = static_cast<float>(cell.fill * options_.edge_m * bulk);
   history.volume[l] = static_cast<float>(cell.fill * std::pow(options_.edge_m, 3));

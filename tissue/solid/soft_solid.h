@@ -35,6 +35,7 @@ struct SoftCell {
   std::array<std::int32_t, 8> node{};  ///< corners: bits 1 = +x, 2 = +y, 4 = +z
   double fill = 1;                     ///< share of the cube that is tissue, > 0
   std::int32_t material = 0;           ///< index into the materials
+  double stiffness = 1;                ///< over that of its material, > 0
 };
 
 struct SoftSolidOptions {

@@ -212,6 +212,7 @@ SceneView attempt_scene(const SessionView& view) {
     for (const Organ& other : view.scene.organ.adjacent)
       if (other.name == view.scene.bound) out.second_material = other.material;
     out.targets = marks(view.director);
+    if (const auto add_marks = picture_of(view.scene.setup.exercise).add_marks) add_marks(view, out.targets);
     for (const AdjacentOrgan& organ : view.scene.adjacent.organs)
       out.adjacent.push_back({organ.surface_T, organ.material});
     if (view.scene.soft) out.breath_T = bed_shift(view.scene.setup.exercise.breathing, stylus.t_s);

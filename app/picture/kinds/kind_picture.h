@@ -32,6 +32,8 @@ struct KindPicture {
   bool (*telling)(const SessionView&);
   /// The instrument is the scope: what it sees from there. nullptr: somebody else holds the scope.
   Camera (*sees)(const Scene&, const Pose& X_TI) = nullptr;
+  /// On the organ, beside the board's targets; nullptr: nothing.
+  void (*add_marks)(const SessionView&, std::vector<TargetMark>&) = nullptr;
 };
 
 const KindPicture& picture_of(const Exercise&);

@@ -20,6 +20,11 @@ std::vector<Stop> stops_of(const Exercise& exercise, const Board& board, const M
     const Vec3 back = oriented ? Vec3(-R.col(2)) : Vec3::UnitZ();
     stops.push_back({{R, target.centre_T + exercise.retract_height_m * back}, target.normal_T});
   }
+  // What is hidden is searched for: it is pressed over each.
+  for (const HiddenNodule& nodule : board.nodules) {
+    const Vec3 over = nodule.centre_T + nodule.radius_m * Vec3::UnitZ();
+    stops.push_back({{R_TI_rest, over}, Vec3::UnitZ()});
+  }
   return stops;
 }
 

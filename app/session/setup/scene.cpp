@@ -329,6 +329,19 @@ void soften(Scene& scene) {
   }
 }
 
+/// What the board hides in the organ. @throws InputError: an organ that stands still hides nothing.
+void hide(Scene& scene) {
+  if (scene.board.nodules.empty()) return;
+  if (!scene.soft)
+    throw InputError("exercise '" + scene.setup.exercise.id +
+                     "' hides what is stiffer in the organ; where tissue is '" + kStillTissue +
+                     "' it cannot be felt: choose another");
+  auto soft = std::make_shared<SoftSetup>(*scene.soft);
+  for (const HiddenNodule& nodule : scene.board.nodules)
+    soft->options.balls.push_back({nodule.centre_T, nodule.radius_m, nodule.stiffness_ratio});
+  scene.soft = std::move(soft);
+}
+
 /// As the exercise has it lie; nullopt: it says nothing of it, or this organ has not the one that is to be in the
 /// middle.
 std::optional<Pose> lying(const Exercise& exercise, const Organ& organ) {
@@ -378,6 +391,7 @@ void set_stage(Scene& scene) {
   }
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
+  hide(scene);
   if (kind_of(exercise).on_organ) require_reach(scene);
   for (const InstrumentKind kind : exercise.instruments) scene.loop.tools.push_back(make_tool(kind, scene.loop.tool));
   scene.loop.tool = scene.loop.tools.front().shape;

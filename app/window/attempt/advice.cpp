@@ -155,6 +155,9 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: begin to roll before a bend, so that the ring stands across the wire all the way round.");
   if (m == "block_regrasps")
     return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
+  if (m == "search_share")
+    return words("Try next: press the whole region point by point, go back to the hardest places, and then mark.");
+  if (m == "localisation_error_m") return words("Try next: press all round a hard place before you mark its middle.");
   if (m == "objects_done_share") return placing_advice(a);
   if (m == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");
   if (a.exercise.camera && m != "time_per_target_s") return scope_advice(a, m);

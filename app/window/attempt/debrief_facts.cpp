@@ -132,6 +132,9 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kLetGo) return words("Let go too early");
   if (type == event_type::kWallContact) return words("Lens touched");
   if (type == event_type::kHorizonLost) return words("Horizon lost");
+  if (type == event_type::kNoduleFound) return words("Nodule found");
+  if (type == event_type::kFalseMark) return words("False mark");
+  if (type == event_type::kSearchEnded) return words("Search ended");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

@@ -13,8 +13,8 @@ KindLesson camera_lesson();
 KindLesson wire_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),  touch_lesson(), grasp_lesson(),
-                                               camera_lesson(), wire_lesson(),  retract_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(),   grasp_lesson(),  camera_lesson(),
+                                               wire_lesson(),  retract_lesson(), palpate_lesson()};
   return lessons;
 }
 

@@ -1,0 +1,92 @@
+#include "app/picture/kinds/hud_parts.h"
+#include "app/picture/kinds/kind_picture.h"
+#include "scenarios/kinds/palpate/palpate_rules.h"
+#include "tissue/tissue_frame.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kMarkRadius = 0.003, kCornerRadius = 0.0012;  // m
+constexpr int kCornersASide = 4;                               // of the region's edge, dots from corner to corner
+
+/// The uppermost place of a surface over a place in the plane; none: beside it.
+std::optional<SurfacePlace> top_of(const TriangleSurface& surface_T, const Vec3& place_T) {
+  std::optional<SurfacePlace> top;
+  for (const auto& triangle : surface_T.triangles) {
+    const auto corner = [&](std::size_t k) { return surface_T.vertices[static_cast<std::size_t>(triangle[k])]; };
+    const Vec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a, off = place_T - a;
+    const double area = ab.x() * ac.y() - ab.y() * ac.x();
+    if (area <= 0) continue;  // faces down
+    const double u = (off.x() * ac.y() - off.y() * ac.x()) / area, v = (ab.x() * off.y() - ab.y() * off.x()) / area;
+    if (u < 0 || v < 0 || u + v > 1) continue;
+    const Vec3 at = a + u * ab + v * ac;
+    if (!top || at.z() > top->point_T.z()) top = SurfacePlace{at, ab.cross(ac).normalized()};
+  }
+  return top;
+}
+
+/// What was marked, and dots along the edge of the region. Whether a mark is right is not to be seen.
+void add_palpate_marks(const SessionView& view, std::vector<TargetMark>& out) {
+  const DirectorStatus& status = view.director.status();
+  const TriangleSurface& organ_T = *view.scene.organ_T;
+  const auto add = [&](const Vec3& place_T, double radius_m, TargetMark::State state) {
+    if (const auto at = top_of(organ_T, place_T)) out.push_back({at->point_T, at->normal_T, radius_m, state});
+  };
+  const TargetLayout& layout = view.scene.setup.exercise.layout;
+  for (int i = 0; i <= kCornersASide; ++i)
+    for (int j = 0; j <= kCornersASide; ++j) {
+      if (i % kCornersASide != 0 && j % kCornersASide != 0) continue;
+      const Vec3 off((i / double{kCornersASide} - 0.5) * layout.region_x_m,
+                     (j / double{kCornersASide} - 0.5) * layout.region_y_m, 0);
+      add(view.scene.board.centre_T + off, kCornerRadius, TargetMark::State::kWaiting);
+    }
+  for (int i = 0; i < status.mark_count; ++i)
+    add(status.marks_T[static_cast<std::size_t>(i)], kMarkRadius, TargetMark::State::kLit);
+}
+
+/// Of the tip, with the force that judges well and the limit; without a bar the pinch has none either.
+std::vector<ForceBar> palpate_bars(const SessionView& view) {
+  const Exercise& exercise = view.scene.setup.exercise;
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  const JudgedForces limits = judged_forces(exercise, level, view.scene.board, status);
+  ForceBar tip = force_bar("Tip force", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n},
+                           *limits.tip_n);
+  tip.peak_n = status.peak_force_n;
+  tip.hidden = level.force_display != "always" && !status.force_shown;
+  tip.hidden_note = hidden_note(level.force_display);
+  return {tip};
+}
+
+std::vector<HudRow> palpate_rows(const Scene& scene, const DirectorStatus& status) {
+  const std::size_t count = scene.setup.exercise.palpate->nodules.size();
+  std::vector<HudRow> rows{{"Marks set", std::to_string(status.mark_count) + " / " + std::to_string(count), ""}};
+  if (scene.level.palpate->found_shown) rows.push_back({"False marks", std::to_string(status.wrong_places), ""});
+  rows.push_back({"Too much force", std::to_string(status.excess_forces), "x"});
+  rows.push_back(hold_row(status));
+  return rows;
+}
+
+bool marking(const SessionView& view) {
+  const DirectorStatus& status = view.director.status();
+  return status.mark_count > 0 && status.hold_progress > 0.5;
+}
+
+}  // namespace
+
+KindPicture palpate_picture() {
+  return {
+      .kind = ExerciseKind::kPalpate,
+      .steps =
+          [](const RunStage& run) {
+            return std::vector{hud_step("Feel the region and mark what is hidden", run.done, run.started && !run.done)};
+          },
+      .rows = palpate_rows,
+      .bars = palpate_bars,
+      .add_objects = [](const SessionView&, std::vector<SceneObject>&) {},
+      .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
+      .telling = marking,
+      .add_marks = add_palpate_marks};
+}
+
+}  // namespace trocar

@@ -1,0 +1,73 @@
+// How a simulated person feels an organ for what is hidden in it: presses it at the points of a raster, one after the
+// other, with about the same force; judges at each how stiff it is, the felt force over the seen depth; goes back to
+// the stiffest places, presses beside them, and marks where it is stiffest by a long pinch, until the exercise has
+// enough.
+//
+// A finer raster is that of a hand that is content with little error (HandSkill::settle_share); who corrects more feels
+// more often beside a place before marking it. Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's,
+// once a loop period; does not allocate.
+#pragma once
+
+#include <array>
+
+#include "scenarios/hands/force_grip.h"
+#include "scenarios/hands/hand.h"
+#include "scenarios/hands/hand_random.h"
+#include "scenarios/hands/hand_script.h"
+#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/minimum_jerk.h"
+
+namespace trocar {
+
+class PalpateJob {
+ public:
+  explicit PalpateJob(const HandSkill& skill);
+
+  /// The search begins. @param intent what the hand wants at this moment.
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  /// One period: moves the intent.
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  /// The tip is meant to be on the tissue: what is felt is not the arm's.
+  bool pressing() const { return step_ == Step::kPress || step_ == Step::kPinch || step_ == Step::kLetGo; }
+
+ private:
+  enum class Step : std::uint8_t { kReach, kLook, kDescend, kPress, kPinch, kLetGo };
+  enum class Aim : std::uint8_t { kRaster, kBeside, kMark };
+
+  /// A place that was pressed.
+  struct Felt {
+    Vec3 place_T = Vec3::Zero();
+    double stiffness = 0;  ///< N/m, as judged
+  };
+  static constexpr std::size_t kMostFelt = 160, kMostPlaces = 16;
+
+  void enter(Step step);
+  void go_to(const Vec3& place_T, const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void next(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  Vec3 raster_place(const Percept& percept, int index) const;
+  void choose(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void judge(HandRandom& random);
+  /// Where it is stiffest about a place, by all that was felt near it.
+  Vec3 middle_of(const Vec3& place_T) const;
+  double usual_stiffness() const;
+
+  HandSkill skill_;
+  ForceGrip press_, pinch_;
+  ReachPlan plan_;
+  Step step_ = Step::kReach;
+  Aim aim_ = Aim::kRaster;
+  int side_ = 1, raster_ = 0, beside_ = 0, corrections_ = 0;
+  double pitch_m_ = 0;
+  Vec3 goal_T_ = Vec3::Zero(), chosen_T_ = Vec3::Zero(), touched_T_ = Vec3::Zero();
+  double surface_z_ = 0;
+  bool begun_ = false;
+  double in_step_s_ = 0, judged_s_ = 0, force_sum_ = 0, depth_sum_ = 0, place_sum_x_ = 0, place_sum_y_ = 0;
+  int judged_ = 0;
+  std::array<Felt, kMostFelt> felt_;
+  std::size_t felt_count_ = 0;
+  std::array<Vec3, kMostPlaces> left_{};  ///< places that are not to be gone back to: marked, or felt to be nothing
+  std::size_t left_count_ = 0;
+  double marks_share_ = 0;  ///< as seen when the pinch began
+};
+
+}  // namespace trocar

@@ -1,0 +1,59 @@
+#include "scenarios/kinds/palpate/palpate_kind.h"
+
+#include <set>
+
+#include "scenarios/kinds/palpate/palpate_layout.h"
+#include "scenarios/kinds/palpate/palpate_reader.h"
+#include "scenarios/kinds/palpate/palpate_task.h"
+#include "scenarios/scoring/event_types.h"
+
+namespace trocar {
+namespace {
+
+JudgedForces palpate_limits(const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
+  return {.tip_n = exercise.hard_force_n, .grip_n = {}};
+}
+
+Board lay_out_palpate(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
+  return lay_out_nodules(place.organ_T, exercise, level, board, place.behind_tip);
+}
+
+std::vector<std::unique_ptr<ExerciseTask>> palpate_tasks(const Exercise& exercise, const ExerciseLevel& level,
+                                                         const Board& board) {
+  std::vector<std::unique_ptr<ExerciseTask>> tasks;
+  tasks.push_back(std::make_unique<PalpateTask>(exercise, level, board));
+  return tasks;
+}
+
+/// Asked for are the nodules, not what lies beside them; done are those that were found. Nobody says where to search,
+/// so there is no ideal way.
+void account_nodules(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  double stiffest = 0;
+  for (const HiddenNodule& nodule : board.nodules) stiffest = std::max(stiffest, nodule.stiffness_ratio);
+  for (const HiddenNodule& nodule : board.nodules) context.objects_total += nodule.stiffness_ratio >= stiffest ? 1 : 0;
+  std::set<std::int32_t> found;
+  for (const Event& event : events)
+    if (event.type == event_type::kNoduleFound) found.insert(event.object);
+  context.objects_done = static_cast<int>(found.size());
+}
+
+}  // namespace
+
+KindDescription palpate_kind() {
+  return {.kind = ExerciseKind::kPalpate,
+          .name = "palpate",
+          .on_organ = true,
+          .oriented = false,
+          .jaws_hold = false,
+          .tool = ToolKind::kProbe,
+          .watched = WatchedForce::kTip,
+          .limits = palpate_limits,
+          .read_targets = read_nodule_places,
+          .read = read_palpate,
+          .read_level = read_palpate_level,
+          .lay_out = lay_out_palpate,
+          .tasks = palpate_tasks,
+          .account = account_nodules};
+}
+
+}  // namespace trocar
