@@ -8,9 +8,10 @@ namespace trocar {
 KindPicture reach_picture();
 KindPicture touch_picture();
 KindPicture grasp_picture();
-KindPicture retract_picture();
 KindPicture camera_picture();
 KindPicture wire_picture();
+KindPicture retract_picture();
+KindPicture palpate_picture();
 
 const KindPicture& picture_of(const Exercise& exercise) {
   static const std::vector<KindPicture> pictures{reach_picture(), touch_picture(),   grasp_picture(),  camera_picture(),

@@ -8,9 +8,10 @@ namespace trocar {
 KindLesson reach_lesson();
 KindLesson touch_lesson();
 KindLesson grasp_lesson();
-KindLesson retract_lesson();
 KindLesson camera_lesson();
 KindLesson wire_lesson();
+KindLesson retract_lesson();
+KindLesson palpate_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
   static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(),   grasp_lesson(),  camera_lesson(),

@@ -1,6 +1,5 @@
 #include "scenarios/kinds/palpate/palpate_kind.h"
 
-#include <set>
 
 #include "scenarios/kinds/palpate/palpate_layout.h"
 #include "scenarios/kinds/palpate/palpate_reader.h"
@@ -31,10 +30,9 @@ void account_nodules(const Board& board, const std::vector<Event>& events, Scori
   double stiffest = 0;
   for (const HiddenNodule& nodule : board.nodules) stiffest = std::max(stiffest, nodule.stiffness_ratio);
   for (const HiddenNodule& nodule : board.nodules) context.objects_total += nodule.stiffness_ratio >= stiffest ? 1 : 0;
-  std::set<std::int32_t> found;
+  // What was marked is done; whether it was right is the matter of search_share.
   for (const Event& event : events)
-    if (event.type == event_type::kNoduleFound) found.insert(event.object);
-  context.objects_done = static_cast<int>(found.size());
+    context.objects_done += event.type == event_type::kNoduleFound || event.type == event_type::kFalseMark ? 1 : 0;
 }
 
 }  // namespace
