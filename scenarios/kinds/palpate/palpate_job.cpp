@@ -6,7 +6,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kRasterFinest = 0.0078, kRasterShare = 0.0048;  // m of pitch, and as much more times settle_share
+constexpr double kRasterFinest = 0.0052, kRasterShare = 0.0048;  // m of pitch, and as much more times settle_share
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;        // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
@@ -19,7 +19,7 @@ constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; 
 constexpr double kFeelJudgement = 0.25;              // of the force CV: error of the judged stiffness
 constexpr double kApart = 0.013;                     // m from what was marked, or felt to be nothing
 constexpr double kAbout = 0.010;                     // m round a place whose presses say where it is stiffest
-constexpr double kStiffer = 1.08;                    // over what is usual: worth a mark
+constexpr double kStiffer = 1.04;                    // over what is usual: worth a mark
 constexpr double kOnPlace = 0.002;                   // m off the place that needs no correction before a mark
 constexpr double kFeelOpenJaw = 0.018, kFeelTightestJaw = -0.010;  // m
 constexpr double kFeelJawSpeed = 0.030, kFeelClosing = 0.012;      // m/s, free and until the pad is felt
@@ -69,24 +69,26 @@ void PalpateJob::go_to(const Vec3& place_T, const Percept& percept, const HandIn
   enter(Step::kReach);
 }
 
-double PalpateJob::usual_stiffness() const {
-  std::array<double, kMostFelt> all{};
-  const std::size_t count = std::max<std::size_t>(1, felt_count_);
-  for (std::size_t i = 0; i < felt_count_; ++i) all[i] = felt_[i].stiffness;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(all.begin(), middle, all.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
+/// The plane through what has been felt: an organ is firmer towards one side than towards the other.
+double PalpateJob::usual_stiffness(const Vec3& place_T) const {
+  Mat3 sums = 1e-9 * Mat3::Identity();
+  Vec3 felt = Vec3::Zero();
+  for (std::size_t i = 0; i < felt_count_; ++i) {
+    const Vec3 at(1, 1e2 * felt_[i].place_T.x(), 1e2 * felt_[i].place_T.y());
+    sums += at * at.transpose();
+    felt += felt_[i].stiffness * at;
+  }
+  return Vec3(1, 1e2 * place_T.x(), 1e2 * place_T.y()).dot(Vec3(sums.ldlt().solve(felt)));
 }
 
 Vec3 PalpateJob::middle_of(const Vec3& place_T) const {
-  const double usual = usual_stiffness();
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (std::size_t i = 0; i < felt_count_; ++i) {
     if ((felt_[i].place_T - place_T).head<2>().norm() > kAbout) continue;
-    const double more = std::max(0.0, felt_[i].stiffness - usual);
-    sum += more * more * felt_[i].place_T;
-    weight += more * more;
+    const double more = std::max(0.0, felt_[i].stiffness - usual_stiffness(felt_[i].place_T));
+    sum += more * more * more * felt_[i].place_T;
+    weight += more * more * more;
   }
   return weight > 0 ? Vec3(sum / weight) : place_T;
 }
@@ -94,10 +96,14 @@ Vec3 PalpateJob::middle_of(const Vec3& place_T) const {
 /// The stiffest place that is not left; when everything is left, the stiffest of all is what remains.
 void PalpateJob::choose(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   const Felt* best = nullptr;
+  double most = 0;
   for (std::size_t i = 0; i < felt_count_; ++i) {
     const auto near = [&](const Vec3& place) { return (felt_[i].place_T - place).head<2>().norm() < kApart; };
     const bool left = std::any_of(left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(left_count_), near);
-    if (!left && (best == nullptr || felt_[i].stiffness > best->stiffness)) best = &felt_[i];
+    const double more = felt_[i].stiffness / usual_stiffness(felt_[i].place_T);
+    if (left || more <= most) continue;
+    best = &felt_[i];
+    most = more;
   }
   if (best == nullptr) {
     left_count_ = 0;
@@ -193,7 +199,8 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       judge(random);
       if (aim_ != Aim::kMark) return next(percept, intent, random);
       // Where it turns out to be as soft as elsewhere, a careful hand goes on searching.
-      const bool nothing = felt_[felt_count_ - 1].stiffness < kStiffer * usual_stiffness();
+      const bool nothing =
+          felt_[felt_count_ - 1].stiffness < kStiffer * usual_stiffness(felt_[felt_count_ - 1].place_T);
       if (left_count_ < kMostPlaces) left_[left_count_++] = chosen_T_;
       if (nothing && skill_.max_corrections > 1 && left_count_ + 4 < kMostPlaces)
         return choose(percept, intent, random);

@@ -49,7 +49,7 @@ class PalpateJob {
   void judge(HandRandom& random);
   /// Where it is stiffest about a place, by all that was felt near it.
   Vec3 middle_of(const Vec3& place_T) const;
-  double usual_stiffness() const;
+  double usual_stiffness(const Vec3& place_T) const;
 
   HandSkill skill_;
   ForceGrip press_, pinch_;

@@ -1,6 +1,5 @@
 #include "scenarios/kinds/palpate/palpate_kind.h"
 
-
 #include "scenarios/kinds/palpate/palpate_layout.h"
 #include "scenarios/kinds/palpate/palpate_reader.h"
 #include "scenarios/kinds/palpate/palpate_task.h"

@@ -14,7 +14,9 @@
 namespace trocar::palpate_layout_test {
 namespace {
 
-Exercise shipped() { return find_exercise("E10", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises"); }
+Exercise shipped() {
+  return load_exercise(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded/palpation.toml");
+}
 
 TEST(PalpateLayout, TwentyBoardsOfEachLevel) {
   const Exercise exercise = shipped();
@@ -68,7 +70,7 @@ TEST(PalpateLoader, RefusesWhatCannotBe) {
   EXPECT_NE(refused("count = 3", "count = 4").find("as many entries"), std::string::npos);
   EXPECT_NE(refused("press_n = [0.8, 1.2]", "press_n = [1.2, 0.8]").find("low below high"), std::string::npos);
   EXPECT_NE(refused("press_n = [0.8, 1.2]", "press_n = [0.8, 2.2]").find("hard_n"), std::string::npos);
-  EXPECT_NE(refused("decoy_ratio = 1.3", "decoy_ratio = 3.5").find("less stiff"), std::string::npos);
+  EXPECT_NE(refused("decoy_ratio = 1.3", "decoy_ratio = 5.5").find("less stiff"), std::string::npos);
   EXPECT_NE(refused("pad_mm = 10", "pad_mm = 1").find("too thin"), std::string::npos);
 }
 
