@@ -171,10 +171,10 @@ TEST_F(Usage, AnExerciseIsNamedByIdNumberOrFile) {
     EXPECT_EQ(outcome.out.find("E02  surface-touch"), 0u) << word;
   }
   for (const Translator& words :
-       {Translator{"run", "9", "--hand", "idle", "--db", ":memory:"}, Translator{"check", "9"},
-        Translator{"practice", "9", "--db", ":memory:", "--screens", "s"}, Translator{"sweep", "9"},
-        Translator{"demo", "--exercise", "9"}}) {
-    expect_refusal(words, 2, "unknown exercise '9': known are E01 reach-and-orient, E02 surface-touch, E03");
+       {Translator{"run", "99", "--hand", "idle", "--db", ":memory:"}, Translator{"check", "99"},
+        Translator{"practice", "99", "--db", ":memory:", "--screens", "s"}, Translator{"sweep", "99"},
+        Translator{"demo", "--exercise", "99"}}) {
+    expect_refusal(words, 2, "unknown exercise '99': known are E01 reach-and-orient, E02 surface-touch, E03");
   }
 }
 
