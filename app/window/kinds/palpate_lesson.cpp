@@ -34,12 +34,11 @@ KindLesson palpate_lesson() {
           .steps = palpate_steps,
           .add_limits = add_palpate_limits,
           .display = {words("Too hard - ease off"), words("Keep to {0}."), words("Marked"), words("Found"),
-                      words("Nothing there"), words("Marks: {0} of {1}."),
-                      words("Marks: {0} of {1}. A pinch in the start ball ends it."), words("Ending the search"),
-                      words("Marking"), words("Keep still and keep the pinch."),
-                      words("Is it harder here than beside it?"), words("Pinch to mark the place."),
-                      words("Feel for what is hidden"), words("Feel the region and mark what is hidden"),
-                      words("Marks set"), words("False marks"), words("Too much force"), words("Tip force")}};
+                      words("Nothing there"), words("Marks: {0} of {1}."), words("Ending the search"), words("Marking"),
+                      words("Keep still and keep the pinch."), words("Is it harder here than beside it?"),
+                      words("Pinch to mark the place."), words("Feel for what is hidden"),
+                      words("Feel the region and mark what is hidden"), words("Marks set"), words("False marks"),
+                      words("Too much force"), words("Tip force")}};
 }
 
 }  // namespace trocar

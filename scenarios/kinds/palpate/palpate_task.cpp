@@ -113,7 +113,7 @@ void PalpateTask::hints(const TaskInput& input, DirectorStatus& status) const {
   }
   if (holding_) return say(status, in_start_ ? "Ending the search" : "Marking", "Keep still and keep the pinch.");
   if (touching_) return say(status, "Is it harder here than beside it?", "Pinch to mark the place.");
-  say(status, "Feel for what is hidden", "Marks: " + count + ". A pinch in the start ball ends it.");
+  say(status, "Feel for what is hidden", "Marks: " + count + ".");
 }
 
 void PalpateTask::describe(const TaskInput& input, DirectorStatus& status) const {

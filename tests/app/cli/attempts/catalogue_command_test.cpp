@@ -83,7 +83,7 @@ TEST(Catalogue, JsonOfALevelHoldsMappingBandsAndRubric) {
       EXPECT_EQ(said.at("name"), level.name);
       EXPECT_EQ(said.at("exam").get<bool>(), level.name == "exam");
       EXPECT_EQ(said.contains("port_m"), level.mapping == Mapping::kFulcrum);
-      EXPECT_EQ(said.contains("angle_tolerance_rad"), kind_of(exercise).oriented);
+      EXPECT_EQ(said.contains("angle_tolerance_rad"), level.angle_tolerance_rad > 0);
       EXPECT_EQ(said.contains("bands_n") ? said.at("bands_n").size() : 0, level.bands.size());
       EXPECT_EQ(said.at("force_scale").is_string(), level.force_scale <= 0) << "auto, or the number";
     }

@@ -121,7 +121,7 @@ TEST(LessonWords, EachDisplayModeSaysWhatItMeans) {
     level.force_display = mode;
     for (const Exercise& exercise : shipped()) said.insert(lesson_display(w, exercise, level));
   }
-  EXPECT_EQ(said.size(), 6u) << "what is watched is the force, or how a pen is matched";
+  EXPECT_EQ(said.size(), 8u) << "what is watched is the force, how a pen is matched, or, always or not, the horizon";
 }
 
 TEST(LessonWords, PortTurnsTheSentenceAboutTheTip) {
