@@ -243,6 +243,42 @@ def path_ratio(attempt):
     return length / ideal if length and ideal > 0 else None
 
 
+def force_max(attempt):
+    touched = any(s["contact"] for s in attempt.samples)
+    return max(s["force"] for s in attempt.samples) if touched else None
+
+
+def grip_mean(attempt):
+    """Over the time with a grip above 0.05 N; a sample stands for half of the way to its neighbours."""
+    t, total, held = attempt.times, 0.0, 0.0
+    for i, sample in enumerate(attempt.samples):
+        if sample["grip"] > 0.05:
+            weight = (t[min(i + 1, len(t) - 1)] - t[max(i - 1, 0)]) / 2
+            total += sample["grip"] * weight
+            held += weight
+    return total / held if held > 0 else None
+
+
+def last_told(attempt, kind):
+    """Mean over objects of what was last told of each."""
+    last = {e["object"]: e["value"] for e in attempt.events if e["type"] == kind}
+    return sum(last.values()) / len(last) if last else None
+
+
+def first_told(attempt, kind):
+    first = {e["object"]: e["value"] for e in reversed(attempt.events) if e["type"] == kind}
+    return sum(first.values()) / len(first) if first else None
+
+
+def time_per_target(attempt):
+    done = attempt.context["objects_done"]
+    return (attempt.times[-1] - attempt.times[0]) / done if attempt.count("HORIZON_KEPT") and done else None
+
+
+def holds_lost(attempt):
+    return attempt.count("SLIP", "LET_GO", "COVERED") if attempt.count("TISSUE_TAKEN") else None
+
+
 METRICS = {
     "time_s": lambda a: a.seconds,
     "wrong_places": lambda a: a.count("WRONG_PLACE"),
@@ -261,6 +297,14 @@ METRICS = {
     "wire_touch_share": wire_touch_share,
     "wire_touches": lambda a: a.count("WIRE_TOUCHED"),
     "ring_angle_deg": lambda a: mean_value(a, "ANGLE_ERROR", 180 / math.pi),
+    "time_per_target_s": time_per_target,
+    "horizon_share": lambda a: last_told(a, "HORIZON_KEPT"),
+    "wall_contacts": lambda a: a.count("WALL_CONTACT") if a.count("HORIZON_KEPT") else None,
+    "view_jerks": lambda a: last_told(a, "VIEW_JERKS"),
+    "force_max_n": force_max,
+    "grip_mean_n": grip_mean,
+    "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
+    "holds_lost": holds_lost,
     "search_share": search_share,
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }

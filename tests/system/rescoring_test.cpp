@@ -10,9 +10,10 @@ namespace {
 
 class Rescoring : public SystemTest {
  protected:
-  void attempt(const std::string& exercise, const std::string& hand, const std::string& level) const {
+  void attempt(const std::string& exercise, const std::string& hand, const std::string& level,
+               const std::string& tissue = "still") const {
     const Outcome run =
-        trocar({"run", exercise, "--hand", hand, "--level", level, "--tissue", "still", "--seed", "3", "--db", "r.db"});
+        trocar({"run", exercise, "--hand", hand, "--level", level, "--tissue", tissue, "--seed", "3", "--db", "r.db"});
     EXPECT_LE(run.exit_code, 1) << run.err;
   }
   Outcome rescored() const {
@@ -30,12 +31,15 @@ TEST_F(Rescoring, AgreesToABillionthOnEveryExercise) {
   attempt("reach-and-orient", "intermediate", "L1");
   attempt("surface-touch", "novice", "L1");
   attempt("limited-grasp", "intermediate", "L1");
+  attempt("camera-navigation", "novice", "L2");
+  attempt("ring-on-wire", "novice", "L2");
+  attempt("retract-and-hold", "intermediate", "L1", "normal");
   attempt(exercise_of(3, 12), "idle", "L1");
   const Outcome exported = trocar({"export", "traces", "--out", "traces", "--db", "r.db"});
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   const Outcome made = rescored();
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_EQ(std::count(made.out.begin(), made.out.end(), '\n'), 4) << made.out;
+  EXPECT_EQ(std::count(made.out.begin(), made.out.end(), '\n'), 7) << made.out;
 }
 
 TEST_F(Rescoring, TellsAnAlteredTrace) {

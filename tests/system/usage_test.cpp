@@ -178,6 +178,10 @@ TEST_F(Usage, AnExerciseIsNamedByIdNumberOrFile) {
   }
 }
 
+TEST_F(Usage, TissueThatStandsStillIsNotLifted) {
+  expect_refusal({"run", "E09", "--hand", "idle", "--tissue", "still", "--db", ":memory:"}, 2, "must give way");
+}
+
 TEST_F(Usage, TwoRunsInOneFilmHaveOneLimit) {
   const std::string help = trocar({"replay", "--help"}).out;
   EXPECT_NE(help.find("with --beside from 720"), std::string::npos);

@@ -374,7 +374,11 @@ void place(Scene& scene) {
   else
     scene.placement = place_organ(scene.organ.surface, exercise, scene.level, instrument);
   scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
-  if (scene.setup.tissue != kStillTissue) soften(scene);
+  if (scene.setup.tissue != kStillTissue)
+    soften(scene);
+  else if (judges_pull(exercise))
+    throw InputError("exercise '" + exercise.id + "' lifts tissue, which must give way: '" + kStillTissue +
+                     "' does not, choose another");
   if (scene.organ.adjacent.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
   scene.adjacent =
