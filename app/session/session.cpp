@@ -24,6 +24,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/score.h"
 
 namespace trocar {
@@ -281,6 +282,9 @@ Backend setup_backend(const AttemptSetup& setup) {
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                            RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
+  if (scene.setup.tissue == kStillTissue && (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty()))
+    throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
+                     "' does not, choose another");
   if (!hooks.hand && !scene.loop.daq.motors) {
     throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
   }

@@ -329,13 +329,9 @@ void soften(Scene& scene) {
   }
 }
 
-/// What the board hides in the organ. @throws InputError: an organ that stands still hides nothing.
+/// What the board hides in the organ; one that stands still hides nothing (run_session() refuses it).
 void hide(Scene& scene) {
-  if (scene.board.nodules.empty()) return;
-  if (!scene.soft)
-    throw InputError("exercise '" + scene.setup.exercise.id +
-                     "' hides what is stiffer in the organ; where tissue is '" + kStillTissue +
-                     "' it cannot be felt: choose another");
+  if (scene.board.nodules.empty() || !scene.soft) return;
   auto soft = std::make_shared<SoftSetup>(*scene.soft);
   for (const HiddenNodule& nodule : scene.board.nodules)
     soft->options.balls.push_back({nodule.centre_T, nodule.radius_m, nodule.stiffness_ratio});
@@ -374,11 +370,7 @@ void place(Scene& scene) {
   else
     scene.placement = place_organ(scene.organ.surface, exercise, scene.level, instrument);
   scene.organ_T = still_surface(scene.organ.surface.transformed(scene.placement.X_TO));
-  if (scene.setup.tissue != kStillTissue)
-    soften(scene);
-  else if (judges_pull(exercise))
-    throw InputError("exercise '" + exercise.id + "' lifts tissue, which must give way: '" + kStillTissue +
-                     "' does not, choose another");
+  if (scene.setup.tissue != kStillTissue) soften(scene);
   if (scene.organ.adjacent.empty()) return;
   const MaterialTable materials = MaterialTable::load(find_assets().assets / "materials.toml");
   scene.adjacent =
