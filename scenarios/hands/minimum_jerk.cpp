@@ -39,4 +39,19 @@ Vec3 ReachPlan::at(double t_s) const {
   return point;
 }
 
+ReachPlan aimed_reach(const Vec3& from_T, const Vec3& way, double width_m, double least_s, const HandSkill& skill,
+                      HandRandom& random) {
+  constexpr double kNominal = 0.060, kAtRest = 0.15;  // m of travel with the nominal aim error; its share at rest
+  const double distance = way.norm();
+  ReachPlan::Shape shape;
+  shape.travel_time_s = std::max(least_s, reach_time_s(distance, width_m, skill.speed_factor));
+  const Vec3 across = Vec3::UnitZ().cross(way);
+  if (across.norm() > 1e-6)
+    shape.bulge = across.normalized() * (skill.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
+  const double noise = std::sqrt(std::min(1.0, distance / kNominal) + kAtRest);
+  const Vec3 error = noise * Vec3(skill.aim_lateral_m * random.normal(), skill.aim_lateral_m * random.normal(),
+                                  skill.aim_depth_m * random.normal());
+  return ReachPlan(from_T, from_T + way + error, shape);
+}
+
 }  // namespace trocar

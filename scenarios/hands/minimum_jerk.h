@@ -3,6 +3,8 @@
 #pragma once
 
 #include "haptics/quantities.h"
+#include "scenarios/hands/hand_random.h"
+#include "scenarios/hands/hand_script.h"
 
 namespace trocar {
 
@@ -31,5 +33,10 @@ class ReachPlan {
   Shape shape_;
   double travel_start_s_ = 0, descent_start_s_ = 0, duration_s_ = 0;
 };
+
+/// A reach as a person makes it: on a bow, and to about where it should end. @param way that the seen tip has to go
+/// @param width_m of what is reached for. @param least_s that it takes at least.
+ReachPlan aimed_reach(const Vec3& from_T, const Vec3& way, double width_m, double least_s, const HandSkill& skill,
+                      HandRandom& random);
 
 }  // namespace trocar

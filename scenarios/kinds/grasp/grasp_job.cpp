@@ -6,8 +6,6 @@
 namespace trocar {
 namespace {
 
-constexpr double kBlockAimReference = 0.060,
-                 kBlockAimFloor = 0.15;       // m of travel with the nominal aim error; share at rest
 constexpr double kQuickest = 0.05;            // s that a movement takes at least
 constexpr double kBlockOpenJaw = 0.022;       // m
 constexpr double kBlockJawSpeed = 0.040;      // m/s of free opening
@@ -110,17 +108,7 @@ void GraspJob::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
 /// Plans a movement of the intent such that the seen tip would arrive at the goal.
 void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m, double least_s,
                      const HandIntent& intent, HandRandom& random) {
-  const Vec3 way = goal_T - percept.tip_T;
-  const double distance = way.norm();
-  ReachPlan::Shape shape;
-  shape.travel_time_s = std::max(least_s, reach_time_s(distance, width_m, skill_.speed_factor));
-  const Vec3 across = Vec3::UnitZ().cross(way);
-  if (across.norm() > 1e-6)
-    shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
-  const double noise = std::sqrt(std::min(1.0, distance / kBlockAimReference) + kBlockAimFloor);
-  const Vec3 error = noise * Vec3(skill_.aim_lateral_m * random.normal(), skill_.aim_lateral_m * random.normal(),
-                                  skill_.aim_depth_m * random.normal());
-  plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
+  plan_ = aimed_reach(intent.X_TI.p, goal_T - percept.tip_T, width_m, least_s, skill_, random);
 }
 
 void GraspJob::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {

@@ -22,7 +22,7 @@ constexpr double kFurther = 0.004;        // m/s by which it is lifted further u
 constexpr double kLostAfter = 0.3;        // s without felt grip before it counts as lost
 constexpr double kDown = 0.05;            // share shown at which it lies
 constexpr double kLoweringSpeed = 0.012;  // m/s
-constexpr double kTissueAimReference = 0.060, kTissueAimFloor = 0.15;
+constexpr double kQuickestReach = 0.05;   // s
 
 }  // namespace
 
@@ -38,17 +38,8 @@ void RetractJob::enter(Step step) {
 
 /// Plans a movement of the intent such that the seen tip would arrive over the place.
 void RetractJob::reach(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  const Vec3 goal_T = percept.target_T + kOverPlace * percept.target_normal_T, way = goal_T - percept.tip_T;
-  const double distance = way.norm();
-  ReachPlan::Shape shape;
-  shape.travel_time_s = std::max(0.05, reach_time_s(distance, percept.target_radius_m, skill_.speed_factor));
-  const Vec3 across = Vec3::UnitZ().cross(way);
-  if (across.norm() > 1e-6)
-    shape.bulge = across.normalized() * (skill_.path_bulge * distance * (random.uniform() < 0.5 ? -1 : 1));
-  const double noise = std::sqrt(std::min(1.0, distance / kTissueAimReference) + kTissueAimFloor);
-  const Vec3 error = noise * Vec3(skill_.aim_lateral_m * random.normal(), skill_.aim_lateral_m * random.normal(),
-                                  skill_.aim_depth_m * random.normal());
-  plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way + error, shape);
+  const Vec3 way = percept.target_T + kOverPlace * percept.target_normal_T - percept.tip_T;
+  plan_ = aimed_reach(intent.X_TI.p, way, percept.target_radius_m, kQuickestReach, skill_, random);
   enter(Step::kReach);
 }
 

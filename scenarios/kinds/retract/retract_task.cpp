@@ -94,7 +94,6 @@ void RetractTask::update(const TaskInput& input, EventLog& log) {
     if (enough() && !frozen(input.stylus)) held_s_ += input.dt_s;
     if (!complete()) return;
     log.add(event_type::kTargetHeld, Severity::kInfo, index_, log.t_s - lit_at_s_, "s");
-    ++done_;
   }
   if (holds_) return;
   ++index_;
@@ -121,8 +120,9 @@ void RetractTask::describe_message(const StylusState& stylus, DirectorStatus& st
 }
 
 void RetractTask::describe(const TaskInput& input, DirectorStatus& status) const {
-  status.targets_done = done_;
-  for (std::int32_t i = 0; i < done_; ++i) status.done.set(static_cast<std::size_t>(i));
+  const std::int32_t done = index_ + (complete() ? 1 : 0);
+  status.targets_done = done;
+  for (std::int32_t i = 0; i < done; ++i) status.done.set(static_cast<std::size_t>(i));
   status.target_index = object();
   status.wrong_places = lost_;
   status.exposure = exposure_;

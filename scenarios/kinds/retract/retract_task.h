@@ -46,7 +46,7 @@ class RetractTask final : public ExerciseTask {
   bool holds_ = false, firm_ = false, taken_ = false, exposed_ = false, judged_ = false, slipping_ = false,
        told_ = false;
   double lit_at_s_ = 0, lifted_m_ = 0, exposure_ = 0, held_s_ = 0, hard_s_ = 0, slip_from_m_ = 0, taken_z_m_ = 0;
-  int done_ = 0, lost_ = 0;
+  int lost_ = 0;
 };
 
 }  // namespace trocar
