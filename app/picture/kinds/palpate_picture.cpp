@@ -1,7 +1,7 @@
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "scenarios/kinds/palpate/palpate_rules.h"
-#include "tissue/tissue_frame.h"
+#include "scenarios/layout/height_field.h"
 
 namespace trocar {
 namespace {
@@ -9,28 +9,12 @@ namespace {
 constexpr double kMarkRadius = 0.003, kCornerRadius = 0.0012;  // m
 constexpr int kCornersASide = 4;                               // of the region's edge, dots from corner to corner
 
-/// The uppermost place of a surface over a place in the plane; none: beside it.
-std::optional<SurfacePlace> top_of(const TriangleSurface& surface_T, const Vec3& place_T) {
-  std::optional<SurfacePlace> top;
-  for (const auto& triangle : surface_T.triangles) {
-    const auto corner = [&](std::size_t k) { return surface_T.vertices[static_cast<std::size_t>(triangle[k])]; };
-    const Vec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a, off = place_T - a;
-    const double area = ab.x() * ac.y() - ab.y() * ac.x();
-    if (area <= 0) continue;  // faces down
-    const double u = (off.x() * ac.y() - off.y() * ac.x()) / area, v = (ab.x() * off.y() - ab.y() * off.x()) / area;
-    if (u < 0 || v < 0 || u + v > 1) continue;
-    const Vec3 at = a + u * ab + v * ac;
-    if (!top || at.z() > top->point_T.z()) top = SurfacePlace{at, ab.cross(ac).normalized()};
-  }
-  return top;
-}
-
 /// What was marked, and dots along the edge of the region. Whether a mark is right is not to be seen.
 void add_palpate_marks(const SessionView& view, std::vector<TargetMark>& out) {
   const DirectorStatus& status = view.director.status();
-  const TriangleSurface& organ_T = *view.scene.organ_T;
+  const HeightField organ(*view.scene.organ_T);
   const auto add = [&](const Vec3& place_T, double radius_m, TargetMark::State state) {
-    if (const auto at = top_of(organ_T, place_T)) out.push_back({at->point_T, at->normal_T, radius_m, state});
+    if (const auto at = organ.top(place_T.x(), place_T.y())) out.push_back({at->position, at->normal, radius_m, state});
   };
   const TargetLayout& layout = view.scene.setup.exercise.layout;
   for (int i = 0; i <= kCornersASide; ++i)
