@@ -29,18 +29,23 @@
 namespace trocar {
 
 /// What each kind is: scenarios/kinds/kind.h.
-enum class ExerciseKind : std::uint8_t { kReach, kTouch, kGrasp, kCamera, kWire, kPalpate, kRetract };
+enum class ExerciseKind : std::uint8_t {
+  kReach,
+  kTouch,
+  kGrasp,
+  kCamera,
+  kWire,
+  kPalpate,
+  kRetract,
+  kPegs,
+  kFind,
+  kClip,
+  kDissect
+};
 
-// Rules of the kinds that stand in rooms of their own, scenarios/kinds/<kind>/<kind>_rules.h: what every level shares,
-// and what a level changes.
-struct CameraRules;
-struct CameraLevel;
-struct WireRules;
-struct WireLevel;
-struct PalpateRules;
-struct PalpateLevel;
-struct RetractRules;
-struct RetractLevel;
+/// What only one kind has, of the whole exercise or of a level: its room, scenarios/kinds/<kind>/<kind>_rules.h,
+/// derives from this and own_rules() reads it there.
+struct KindRules {};
 
 enum class Mapping : std::uint8_t { kDirect, kFulcrum };
 constexpr const char* mapping_name(Mapping mapping) { return mapping == Mapping::kFulcrum ? "fulcrum" : "direct"; }
@@ -82,10 +87,7 @@ struct ExerciseLevel {
   double position_tolerance_m = 0, angle_tolerance_rad = 0;  ///< reach
   std::vector<LevelAnchors> anchors;                         ///< in place of the rubric's
   GraspLevel grasp;                                          ///< grasp
-  std::shared_ptr<const CameraLevel> camera;                 ///< camera; nullptr elsewhere, as with the next three
-  std::shared_ptr<const WireLevel> wire;                     ///< wire
-  std::shared_ptr<const PalpateLevel> palpate;               ///< palpate
-  std::shared_ptr<const RetractLevel> retract;               ///< retract
+  std::shared_ptr<const KindRules> own;                      ///< what only its kind has; nullptr: nothing
   Rubric rubric;                                             ///< with this level's anchors
   PointerLevel pointer;
 };
@@ -176,13 +178,10 @@ struct Exercise {
   ContactMaterial surface;            ///< touch: of the organ
   std::string tissue = kStillTissue;  ///< touch: one of kTissueWords, unless the run says otherwise
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;
-  double retract_height_m = 0;                  ///< of the ideal path between targets
-  GripTask grip;                                ///< touch
-  GraspRules grasp;                             ///< grasp
-  std::shared_ptr<const CameraRules> camera;    ///< camera; nullptr elsewhere, as with the next three
-  std::shared_ptr<const WireRules> wire;        ///< wire
-  std::shared_ptr<const PalpateRules> palpate;  ///< palpate
-  std::shared_ptr<const RetractRules> retract;  ///< retract
+  double retract_height_m = 0;           ///< of the ideal path between targets
+  GripTask grip;                         ///< touch
+  GraspRules grasp;                      ///< grasp
+  std::shared_ptr<const KindRules> own;  ///< what only its kind has; nullptr: nothing
   std::vector<DuctPlan> ducts;
   std::vector<SheetPlan> sheets;
   Breathing breathing;  ///< only where the organ gives way
@@ -203,5 +202,11 @@ struct Exercise {
            });
   }
 };
+
+/// What only its kind has, of an exercise or a level. @pre it is of that kind, and read
+template <class Rules, class Of>
+const Rules& own_rules(const Of& of) {
+  return static_cast<const Rules&>(*of.own);
+}
 
 }  // namespace trocar

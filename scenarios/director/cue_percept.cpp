@@ -17,6 +17,9 @@ void show_cue(const DirectorStatus& status, Percept& percept) {
   percept.object = demand.object;
   percept.goal_T = demand.goal_T;
   percept.shown_share = status.exposure;
+  percept.asked_instrument = demand.instrument;
+  percept.shown_symbol = status.shown_symbol;
+  percept.answers_T = demand.answers_T;
   percept.foam = demand.foam;
   percept.foam_count = demand.foam_count;
 }

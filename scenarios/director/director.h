@@ -10,6 +10,7 @@
 #include <array>
 #include <bitset>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,8 +67,10 @@ struct Demand {
   WantedForce band;            ///< of contact force, or of grip while the cue asks to grip; 0 to 0: not told
   SeenObject object = {};      ///< to pick, carry and place
   Vec3 goal_T = Vec3::Zero();  ///< where it shall stand, or to where tissue shall be lifted
+  std::optional<InstrumentKind> instrument = {};  ///< to be in hand for it; none: any
   std::array<FoamLore, kMostFoams> foam = {};
   std::int32_t foam_count = 0;
+  std::array<Vec3, kMostAnswers> answers_T = {};  ///< where each symbol is told
 };
 
 inline constexpr int kMostMarks = 8;
@@ -91,9 +94,10 @@ struct DirectorStatus {
   std::array<Vec3, kMostMarks> marks_T = {};         ///< palpate: places that were marked ...
   int mark_count = 0;                                ///< ... so many
   double peak_force_n = 0;
-  GripBlock grip;             ///< between the jaws now
-  RingOnWire ring;            ///< wire: the ring that the instrument holds; no points while it is off the wire
-  std::string message, hint;  ///< toast, empty when none
+  GripBlock grip;                          ///< between the jaws now
+  std::shared_ptr<const RingOnWire> ring;  ///< wire: the ring that the instrument holds; nullptr while it is off it
+  int shown_symbol = -1;                   ///< find: which of the symbols is to be seen now
+  std::string message, hint;               ///< toast, empty when none
   bool warning = false;
 };
 

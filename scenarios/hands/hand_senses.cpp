@@ -33,6 +33,14 @@ HandJob task_of(const Percept& percept) {
     case Cue::kLift:
     case Cue::kLower:
       return {HandJob::Kind::kLift, percept.target_index};
+    case Cue::kRead:
+      return {HandJob::Kind::kAnswer, percept.target_index};
+    case Cue::kClip:
+    case Cue::kSever:
+      return {HandJob::Kind::kClips, percept.target_index};
+    case Cue::kHook:
+    case Cue::kSeal:
+      return {HandJob::Kind::kBurn, percept.target_index};
     case Cue::kNone:
       break;
   }

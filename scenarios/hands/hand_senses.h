@@ -33,8 +33,12 @@ struct HandJob {
     kBlock,
     kSearch,
     kLift,
+    kAnswer,
+    kClips,
+    kBurn,
     kFinished
   } kind = Kind::kNothing;
+  static constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kFinished) + 1;
   std::int32_t target = -1;
   bool operator==(const HandJob&) const = default;
 };

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "haptics/contact/instrument.h"
 #include "haptics/quantities.h"
@@ -14,7 +15,9 @@ namespace trocar {
 /// What the exercise asks for at this moment, as the screen shows it.
 /// kOrient: bring the tip to the target and turn the instrument as it shows; kPick, kCarry, kPlace: take the object at
 /// the target, bring it there, set it down there. kSearch: feel for what is hidden, mark it by a long pinch. kTake,
-/// kLift, kLower: take tissue at the target, lift it towards the goal and hold it there, let it down.
+/// kLift, kLower: take tissue at the target, lift it towards the goal and hold it there, let it down. kRead: read the
+/// symbol that is to be seen and tell it by touching its like. kClip, kSever: set a clip across what runs through the
+/// target, divide it there. kHook: take the strand at the target on the hook and burn it. kSeal: stop the bleeding.
 enum class Cue : std::uint8_t {
   kNone,
   kWait,
@@ -30,7 +33,12 @@ enum class Cue : std::uint8_t {
   kSearch,
   kTake,
   kLift,
-  kLower
+  kLower,
+  kRead,
+  kClip,
+  kSever,
+  kHook,
+  kSeal
 };
 
 /// An object that the exercise is about, as it is seen on the screen.
@@ -46,6 +54,7 @@ struct FoamLore {
   double low_n = 0, high_n = 0;  ///< wanted grip
 };
 inline constexpr int kMostFoams = 4;
+inline constexpr int kMostAnswers = 4;
 
 /// What a person senses: delayed and noisy, nothing of the world that is not on the screen or in the fingers.
 struct Percept {
@@ -70,7 +79,10 @@ struct Percept {
   double shown_grip_n = 0;     ///< kPick, kCarry, kPlace: reading of the grip bar; NaN when the bar is hidden
   SeenObject object;           ///< kPick, kCarry, kPlace: the lit object (delayed)
   Vec3 goal_T = Vec3::Zero();  ///< there: where it shall stand; kLift: to where the tissue shall come
-  double shown_share = 0;      ///< kLift: how much of what lies behind is to be seen, 0 to 1 (delayed)
+  std::optional<InstrumentKind> asked_instrument = {};  ///< to be in hand, as the screen asks; none: any
+  int shown_symbol = -1;                                ///< which symbol is to be seen now (delayed); -1: none
+  std::array<Vec3, kMostAnswers> answers_T = {};        ///< where each symbol is told
+  double shown_share = 0;                 ///< kLift: how much of what lies behind is to be seen, 0 to 1 (delayed)
   std::array<FoamLore, kMostFoams> foam;  ///< there: learnt before the start
   std::int32_t foam_count = 0;
 };

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/kinds/grasp/grasp_job.h"
+#include "scenarios/kinds/palpate/palpate_job.h"
+#include "scenarios/kinds/retract/retract_job.h"
+
 namespace trocar {
 namespace {
 
@@ -52,10 +56,13 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
       senses_(skill_.reaction_s),
       press_({60, 3.5, 0.04, skill_.force_bias, skill_.force_cv, kForesight, kInVain}),
       squeeze_({200, 3, 0.02, skill_.force_bias, skill_.force_cv, 0, kInVain}),
-      blocks_(skill_),
-      tissue_(skill_),
-      search_(skill_),
       jaw_m_(kOpenJaw) {
+  const auto bring = [this](HandJob::Kind kind, std::unique_ptr<HandWork> work) {
+    works_[static_cast<std::size_t>(kind)] = std::move(work);
+  };
+  bring(HandJob::Kind::kBlock, std::make_unique<GraspJob>(skill_));
+  bring(HandJob::Kind::kLift, std::make_unique<RetractJob>(skill_));
+  bring(HandJob::Kind::kSearch, std::make_unique<PalpateJob>(skill_));
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();
 }
 
@@ -128,18 +135,16 @@ void SkilledHand::begin_task(const Percept& percept) {
   draw_anew(0);
   corrections_ = 0;
   in_step_s_ = 0;
+  if (HandWork* own = work()) {
+    job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
+    return own->begin(percept, job_intent_, random_);
+  }
   switch (task_.kind) {
     case HandJob::Kind::kStart:
     case HandJob::Kind::kPen:
       return reach_target(percept, false);
     case HandJob::Kind::kDisc:
       return reach_target(percept, true);
-    case HandJob::Kind::kBlock:
-      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
-      return blocks_.begin(percept, job_intent_, random_);
-    case HandJob::Kind::kLift:
-      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
-      return tissue_.begin(percept, job_intent_, random_);
     case HandJob::Kind::kGrip:
       squeeze_.begin(percept.band_low_n, percept.band_high_n, random_);
       opened_ = false;
@@ -148,10 +153,8 @@ void SkilledHand::begin_task(const Percept& percept) {
       plan_ = ReachPlan(intent_T_, intent_T_ + Vec3(0, 0, 2 * kLift), {0, Vec3::Zero(), 0, 0.5 * skill_.speed_factor});
       step_ = task_.kind == HandJob::Kind::kGrip ? Step::kSqueeze : Step::kReach;
       return;
-    case HandJob::Kind::kSearch:
-      job_intent_ = {{intent_R_, intent_T_}, jaw_m_};
-      return search_.begin(percept, job_intent_, random_);
     case HandJob::Kind::kNothing:
+    default:
       step_ = Step::kStill;
   }
 }
@@ -223,13 +226,8 @@ void SkilledHand::squeeze(const Percept& percept, double dt_s) {
   jaw_m_ = std::clamp(jaw_m_ - closing * dt_s, std::min(kTightestJaw, percept.jaw_opening_m), kOpenJaw);
 }
 
-HandIntent SkilledHand::move_job(const Percept& percept, double dt_s) {
-  if (task_.kind == HandJob::Kind::kLift)
-    tissue_.update(percept, senses_, dt_s, job_intent_, random_);
-  else if (task_.kind == HandJob::Kind::kSearch)
-    search_.update(percept, senses_, dt_s, job_intent_, random_);
-  else
-    blocks_.update(percept, senses_, dt_s, job_intent_, random_);
+HandIntent SkilledHand::move_work(HandWork& work, const Percept& percept, double dt_s) {
+  work.update(percept, senses_, dt_s, job_intent_, random_);
   intent_T_ = job_intent_.X_TI.p;
   intent_R_ = job_intent_.X_TI.R;
   jaw_m_ = job_intent_.jaw_opening_m;
@@ -260,18 +258,15 @@ HandIntent SkilledHand::update(const Percept& percept, double dt_s) {
   }
   time_s_ += dt_s;
   in_step_s_ += dt_s;
-  const bool touching = task_.kind == HandJob::Kind::kSearch ? search_.pressing()
-                        : task_.kind == HandJob::Kind::kLift ? tissue_.touches()
-                                                             : step_ == Step::kPress;
+  const HandWork* busy = work();
+  const bool touching = busy ? busy->touches() : step_ == Step::kPress;
   senses_.set_used_to_it(!touching);
   senses_.update(percept, skill_.pause_s, dt_s);
   if (!(senses_.task() == task_)) {
     task_ = senses_.task();
     begin_task(attend(percept));
   }
-  const bool job =
-      task_.kind == HandJob::Kind::kBlock || task_.kind == HandJob::Kind::kLift || task_.kind == HandJob::Kind::kSearch;
-  if (job) return move_job(attend(percept), dt_s);
+  if (HandWork* own = work()) return move_work(*own, attend(percept), dt_s);
   if (step_ != Step::kSqueeze) jaw_m_ = std::max(kClosedJaw, jaw_m_ - kJawSpeed * dt_s);  // touch with closed jaws
   act(attend(percept), dt_s);
   return {{intent_R_, intent_T_ + tremor(time_s_)}, jaw_m_};

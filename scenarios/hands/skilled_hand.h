@@ -6,16 +6,17 @@
 // asks for another. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
+#include <array>
+#include <memory>
+
 #include "scenarios/hands/force_grip.h"
 #include "scenarios/hands/hand.h"
 #include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
 #include "scenarios/hands/turn_plan.h"
-#include "scenarios/kinds/grasp/grasp_job.h"
-#include "scenarios/kinds/palpate/palpate_job.h"
-#include "scenarios/kinds/retract/retract_job.h"
 
 namespace trocar {
 
@@ -39,7 +40,8 @@ class SkilledHand : public Hand {
   void descend(const Percept& percept, double dt_s);
   void press(const Percept& percept, double dt_s);
   void squeeze(const Percept& percept, double dt_s);
-  HandIntent move_job(const Percept& percept, double dt_s);
+  HandWork* work() const { return works_[static_cast<std::size_t>(task_.kind)].get(); }
+  HandIntent move_work(HandWork& work, const Percept& percept, double dt_s);
   void on_unexpected_touch(const Percept& percept);
   void draw_anew(std::uint64_t part);
   void start_pressing(const Percept& percept);
@@ -52,10 +54,8 @@ class SkilledHand : public Hand {
   HandSkill skill_;
   HandSenses senses_;
   ForceGrip press_, squeeze_;
-  GraspJob blocks_;
-  RetractJob tissue_;
-  PalpateJob search_;
-  HandIntent job_intent_;  ///< of the job with blocks or tissue, or of the search, without tremor
+  std::array<std::unique_ptr<HandWork>, HandJob::kKinds> works_;  ///< by the kind of job; nullptr: the hand's own
+  HandIntent job_intent_;                                         ///< of the present work, without tremor
   ReachPlan plan_;
   TurnPlan turn_;
   HandJob task_;

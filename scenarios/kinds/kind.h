@@ -50,10 +50,13 @@ struct KindDescription {
   bool jaws_hold;  ///< objects of the world lie between the jaws
   ToolKind tool;
   WatchedForce watched;
-  JudgedForces (*limits)(const Exercise&, const ExerciseLevel&, const Board&, int lit);  ///< lit -1: of all objects
+  bool rolls_stylus = false;  ///< without a port, the instrument has to be rolled about its shaft as through one
+  /// @param lit -1: of all objects
+  JudgedForces (*limits)(const Exercise&, const ExerciseLevel&, const Board&, int lit) =
+      [](const Exercise&, const ExerciseLevel&, const Board&, int) { return JudgedForces{}; };
 
   // While loading. The keys of [targets], of the document and of a level that only this kind has.
-  void (*read_targets)(StrictTable& targets, TargetLayout&);
+  void (*read_targets)(StrictTable& targets, TargetLayout&) = [](StrictTable&, TargetLayout&) {};
   void (*read)(StrictTable& document, Exercise&);
   void (*read_level)(LevelKeys&, const Exercise&, ExerciseLevel&);
   Board (*lay_out)(const Exercise&, const ExerciseLevel&, int board, const BoardPlace&);

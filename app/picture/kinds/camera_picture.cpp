@@ -26,10 +26,10 @@ const Vec3 kWaitingBall(0.10, 0.22, 0.55), kLitBall(0.95, 0.62, 0.03), kDoneBall
 bool told(const ExerciseLevel& level) { return level.force_display != "after"; }
 
 Camera scope_sees(const Scene& scene, const Pose& X_TI) {
-  const Mat3 R_TC = X_TI.R * picture_in_instrument(scene.level.camera->tilt_rad);
+  const Mat3 R_TC = X_TI.R * picture_in_instrument(own_rules<CameraLevel>(scene.level).tilt_rad);
   Camera camera;
   camera.eye_T = X_TI.p;
-  camera.look_at_T = X_TI.p + scene.setup.exercise.camera->drawn_m * R_TC.col(2);
+  camera.look_at_T = X_TI.p + own_rules<CameraRules>(scene.setup.exercise).drawn_m * R_TC.col(2);
   camera.up_T = -R_TC.col(1);
   camera.diagonal_fov_deg = kScopeField;
   if (told(scene.level)) camera.level_rad = horizon_of(R_TC);
@@ -63,7 +63,7 @@ void add_cup(const Cup& cup, const Vec3& ball_colour, bool lit, double plate_z, 
 
 /// The circle in the middle of the picture, on the lens as it were: green while the lit sphere's middle is in it.
 SceneObject middle_ring(const SessionView& view) {
-  const CameraLevel& level = *view.scene.level.camera;
+  const CameraLevel& level = own_rules<CameraLevel>(view.scene.level);
   const Camera camera = scope_sees(view.scene, view.record.stylus.X_TI);
   const Vec3 forward = (camera.look_at_T - camera.eye_T).normalized();
   const double diameter = 2 * kRingBefore * std::tan(level.centre_rad);
@@ -84,11 +84,11 @@ void add_cups(const SessionView& view, std::vector<SceneObject>& out) {
   const std::vector<Target>& targets = view.director.board().targets;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const bool lit = static_cast<int>(i) == status.target_index;
-    add_cup(cup_of(targets[i], *exercise.camera, *view.scene.level.camera),
+    add_cup(cup_of(targets[i], own_rules<CameraRules>(exercise), own_rules<CameraLevel>(view.scene.level)),
             lit                   ? kLitBall
             : status.done.test(i) ? kDoneBall
                                   : kWaitingBall,
-            lit, exercise.camera->board_z_m, out);
+            lit, own_rules<CameraRules>(exercise).board_z_m, out);
   }
   out.push_back(middle_ring(view));
 }
@@ -110,7 +110,8 @@ Eigen::AlignedBox3d camera_work(const Scene& scene) {
   Eigen::AlignedBox3d box;
   for (const Target& target : scene.board.targets) {
     box.extend(target.centre_T);
-    box.extend(cup_of(target, *scene.setup.exercise.camera, *scene.level.camera).foot_T());
+    box.extend(
+        cup_of(target, own_rules<CameraRules>(scene.setup.exercise), own_rules<CameraLevel>(scene.level)).foot_T());
   }
   return box;
 }

@@ -43,9 +43,10 @@ std::vector<ForceBar> palpate_bars(const SessionView& view) {
 }
 
 std::vector<HudRow> palpate_rows(const Scene& scene, const DirectorStatus& status) {
-  const std::size_t count = scene.setup.exercise.palpate->nodules.size();
+  const std::size_t count = own_rules<PalpateRules>(scene.setup.exercise).nodules.size();
   std::vector<HudRow> rows{{"Marks set", std::to_string(status.mark_count) + " / " + std::to_string(count), ""}};
-  if (scene.level.palpate->found_shown) rows.push_back({"False marks", std::to_string(status.wrong_places), ""});
+  if (own_rules<PalpateLevel>(scene.level).found_shown)
+    rows.push_back({"False marks", std::to_string(status.wrong_places), ""});
   rows.push_back({"Too much force", std::to_string(status.excess_forces), "x"});
   rows.push_back(hold_row(status));
   return rows;

@@ -16,8 +16,9 @@ std::vector<ForceBar> retract_bars(const SessionView& view) {
   ForceBar pull =
       force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n}, *limits.tip_n);
   pull.peak_n = status.peak_force_n;
-  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n,
-                            {exercise.retract->grip_low_n, exercise.retract->grip_high_n}, *limits.grip_n);
+  ForceBar grip = force_bar(
+      "Grip force", view.record.stylus.grip_force_n,
+      {own_rules<RetractRules>(exercise).grip_low_n, own_rules<RetractRules>(exercise).grip_high_n}, *limits.grip_n);
   if (level.force_display != "always") {
     pull.hidden = grip.hidden = level.force_display == "after" || !status.force_shown;
     pull.hidden_note = grip.hidden_note = hidden_note(level.force_display);

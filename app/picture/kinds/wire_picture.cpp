@@ -63,7 +63,7 @@ std::size_t points_passed(const SessionView& view, const Board& board) {
 
 void add_wire(const SessionView& view, std::vector<SceneObject>& out) {
   const Exercise& exercise = view.scene.setup.exercise;
-  const WireRules& rules = *exercise.wire;
+  const WireRules& rules = own_rules<WireRules>(exercise);
   const Board& board = view.director.board();
   const double board_z = wire_board_z(board);
   out.push_back(board_object(board_z, kWireBoardSide, kWireBoardThickness, board.centre_T, kWireBoardLines));
@@ -111,7 +111,7 @@ KindPicture wire_picture() {
           .bars = [](const SessionView&) { return std::vector<ForceBar>{}; },
           .add_objects = add_wire,
           .work = wire_work,
-          .telling = [](const SessionView& view) { return view.director.status().ring.count > 0; }};
+          .telling = [](const SessionView& view) { return view.director.status().ring != nullptr; }};
 }
 
 }  // namespace trocar

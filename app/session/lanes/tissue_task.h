@@ -59,7 +59,10 @@ class TissueTask final : public Task {
     director_.update(state.stylus, &world_->frame());
     inserted_ = inserted_ || director_.status().phase != Phase::kReady;
     if (patch.grip.stiffness_n_per_m <= 0) patch.grip = director_.status().grip;
-    patch.ring = director_.status().ring;
+    if (const auto& ring = director_.status().ring)
+      patch.ring = *ring;
+    else
+      patch.ring.count = 0;
     hash_.add(patch);
     hash_.add(world_->frame());
     for (const NodePlace& node : world_->shape().thin_T) hash_.add(node);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/window/attempt/debrief_reason.h"
 #include "app/window/attempt/metric_words.h"
 #include "app/window/attempt/number_words.h"
@@ -160,7 +161,7 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "localisation_error_m") return words("Try next: press all round a hard place before you mark its middle.");
   if (m == "objects_done_share") return placing_advice(a);
   if (m == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");
-  if (a.exercise.camera && m != "time_per_target_s") return scope_advice(a, m);
+  if (is_scope(a.exercise) && m != "time_per_target_s") return scope_advice(a, m);
   if (m == "matched_in_time_share" || m == "position_error_m" || m == "angle_error_deg") return pose_advice(a, m);
   if (m == "time_s" || m == "time_per_target_s") return time_advice(a);
   return words("Try next: {0}, now {1}, towards {2}.", {row.name, row.value, row.full});
@@ -223,7 +224,7 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "wall_contacts")
     return words(row.raw == 1 ? "The lens touched once." : "The lens touched {0} times.", {row.value});
   if (m == "view_jerks") return words("{0} jerks of the picture for each sphere.", {row.value});
-  if (m == "matched_in_time_share" && a.counts().out_of_time > 0 && a.exercise.camera)
+  if (m == "matched_in_time_share" && a.counts().out_of_time > 0 && is_scope(a.exercise))
     return words(a.counts().out_of_time == 1 ? "Once a sphere ran out of time." : "{0} times a sphere ran out of time.",
                  {std::to_string(a.counts().out_of_time)});
   if (m == "matched_in_time_share" && a.counts().out_of_time > 0)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/exercise.h"
+#include "scenarios/kinds/kind.h"
 
 namespace trocar {
 namespace {
@@ -20,7 +20,7 @@ SteeringReach steering_reach(const Exercise& exercise, const ExerciseLevel& leve
   if (level.mapping == Mapping::kFulcrum) {
     reach.port_T = level.port_m;
     reach.most_roll_rad = kRollThroughPort;
-  } else if (exercise.wire) {
+  } else if (kind_of(exercise).rolls_stylus) {
     reach.rolls_stylus = true;
     reach.most_roll_rad = kRollThroughPort;
   }

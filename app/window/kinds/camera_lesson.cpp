@@ -9,26 +9,28 @@ namespace trocar {
 namespace {
 
 std::vector<LessonStep> camera_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level, bool) {
-  const CameraRules& rules = *e.camera;
+  const CameraRules& rules = own_rules<CameraRules>(e);
   const std::string aim =
-      level.camera->tilt_rad > 0
+      own_rules<CameraLevel>(level).tilt_rad > 0
           ? w("Bring the lit sphere into the ring: the tip looks {0} below the shaft.",
-              {degrees(w, level.camera->tilt_rad)})
+              {degrees(w, own_rules<CameraLevel>(level).tilt_rad)})
           : w("Bring the lit sphere into the ring: the instrument is the scope, the picture goes with it.");
   return {{StepIcon::kReach, aim},
           {StepIcon::kWithdraw, w("Look along its cup, from {0} to {1} away.",
                                   {millimetres(w, rules.nearest_m), millimetres(w, rules.farthest_m)})},
-          {StepIcon::kTurn,
-           w("Roll the scope until the picture is level, to {0} or nearer.", {degrees(w, level.camera->horizon_rad)})},
+          {StepIcon::kTurn, w("Roll the scope until the picture is level, to {0} or nearer.",
+                              {degrees(w, own_rules<CameraLevel>(level).horizon_rad)})},
           {StepIcon::kHold, w("Hold still for {0} s; the next sphere lights.", {brief(w, e.hold_s)})}};
 }
 
 void add_camera_limits(const Translator& w, const Exercise& e, const ExerciseLevel& level,
                        std::vector<LessonLimit>& out) {
   out.push_back({w("Spheres"), std::to_string(e.layout.count)});
-  out.push_back({w("A sphere's time"), w("{0} s, then it comes back at the end", {brief(w, e.camera->timeout_s)})});
-  out.push_back({w("Horizon lost"), w("rolled over {0} for more than {1} s",
-                                      {degrees(w, level.camera->horizon_rad), brief(w, e.camera->lost_s)})});
+  out.push_back({w("A sphere's time"),
+                 w("{0} s, then it comes back at the end", {brief(w, own_rules<CameraRules>(e).timeout_s)})});
+  out.push_back({w("Horizon lost"),
+                 w("rolled over {0} for more than {1} s", {degrees(w, own_rules<CameraLevel>(level).horizon_rad),
+                                                           brief(w, own_rules<CameraRules>(e).lost_s)})});
   const auto& rules = level.rubric.subscores;
   const auto gate = std::find_if(rules.begin(), rules.end(),
                                  [](const SubscoreRule& r) { return r.gate && r.metric == "wall_contacts"; });

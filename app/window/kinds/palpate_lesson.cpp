@@ -6,7 +6,7 @@ namespace trocar {
 namespace {
 
 std::vector<LessonStep> palpate_steps(const Translator& w, const Exercise& e, const ExerciseLevel&, bool pointer) {
-  const PalpateRules& rules = *e.palpate;
+  const PalpateRules& rules = own_rules<PalpateRules>(e);
   return {{StepIcon::kPress, w("Press the region point by point with {0}, from above.",
                                {newtons_between(w, rules.press_low_n, rules.press_high_n)})},
           {StepIcon::kReach, pointer ? w("See how far it gives way under the same force: less where a nodule is.")
@@ -17,7 +17,7 @@ std::vector<LessonStep> palpate_steps(const Translator& w, const Exercise& e, co
 }
 
 void add_palpate_limits(const Translator& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
-  const PalpateRules& rules = *e.palpate;
+  const PalpateRules& rules = own_rules<PalpateRules>(e);
   out.push_back({w("Nodules, and marks"), std::to_string(rules.nodules.size())});
   out.push_back({w("Wanted force"), newtons_between(w, rules.press_low_n, rules.press_high_n)});
   out.push_back({w("A mark is right"), w("up to {0} beside a nodule", {millimetres(w, rules.hit_m)})});

@@ -8,7 +8,8 @@ namespace {
 std::vector<LessonStep> retract_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level, bool) {
   return {{StepIcon::kReach, w("Bring the open jaws to the lit disc and press them on a little.")},
           {StepIcon::kSqueeze,
-           w("Close them and grip with {0}.", {newtons_between(w, e.retract->grip_low_n, e.retract->grip_high_n)})},
+           w("Close them and grip with {0}.",
+             {newtons_between(w, own_rules<RetractRules>(e).grip_low_n, own_rules<RetractRules>(e).grip_high_n)})},
           {StepIcon::kWithdraw, w("Lift the tissue until four fifths of what lies behind it are exposed.")},
           {StepIcon::kHold, w("Hold it so for {0} s with a pull of {1}; it breathes.",
                               {brief(w, e.hold_s), newtons_between(w, level.band_low_n, level.band_high_n)})},
@@ -18,8 +19,9 @@ std::vector<LessonStep> retract_steps(const Translator& w, const Exercise& e, co
 void add_retract_limits(const Translator& w, const Exercise& e, const ExerciseLevel& level,
                         std::vector<LessonLimit>& out) {
   out.push_back({w("Wanted pull"), newtons_between(w, level.band_low_n, level.band_high_n)});
-  out.push_back({w("Lift"), millimetres(w, level.retract->lift_m)});
-  out.push_back({w("Wanted grip"), newtons_between(w, e.retract->grip_low_n, e.retract->grip_high_n)});
+  out.push_back({w("Lift"), millimetres(w, own_rules<RetractLevel>(level).lift_m)});
+  out.push_back({w("Wanted grip"),
+                 newtons_between(w, own_rules<RetractRules>(e).grip_low_n, own_rules<RetractRules>(e).grip_high_n)});
 }
 
 }  // namespace

@@ -13,15 +13,15 @@ std::vector<LessonStep> wire_steps(const Translator& w, const Exercise& e, const
                             : w("Roll the stylus so that the ring stays square across the wire.")},
       {StepIcon::kCarry, pointer ? w("Move it along without touching; the ring lights where it touches.")
                                  : w("Move it along without touching; you feel the wire where it touches.")},
-      {StepIcon::kHold,
-       w("Never pull through the wire: beyond {0} N the ring comes off.", {brief(w, e.wire->holds_n)})}};
+      {StepIcon::kHold, w("Never pull through the wire: beyond {0} N the ring comes off.",
+                          {brief(w, own_rules<WireRules>(e).holds_n)})}};
 }
 
 void add_wire_limits(const Translator& w, const Exercise& e, const ExerciseLevel& level,
                      std::vector<LessonLimit>& out) {
   out.push_back({w("Gates"), std::to_string(e.layout.count)});
-  out.push_back(
-      {w("Play of the ring"), w("{0} all round", {millimetres(w, level.wire->ring_radius_m - e.wire->radius_m)})});
+  out.push_back({w("Play of the ring"), w("{0} all round", {millimetres(w, own_rules<WireLevel>(level).ring_radius_m -
+                                                                               own_rules<WireRules>(e).radius_m)})});
 }
 
 }  // namespace

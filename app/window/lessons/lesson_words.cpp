@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/window/attempt/metric_words.h"
 #include "app/window/attempt/number_words.h"
 #include "app/window/kinds/kind_lesson.h"
@@ -76,7 +77,7 @@ std::string lesson_rule(const Translator& w, const Rubric& rubric) {
 
 std::string lesson_display(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
   const std::string& display = level.force_display;
-  if (exercise.camera)
+  if (is_scope(exercise))
     return display == "after" ? w("Horizon and distance: not during the run. Judge them by eye.")
                               : w("Horizon and distance: always shown.");
   if (kind_of(exercise).watched == WatchedForce::kNone) {
@@ -92,7 +93,7 @@ std::string lesson_display(const Translator& w, const Exercise& exercise, const 
 }
 
 std::string lesson_tool(const Translator& w, const Exercise& exercise, const ExerciseLevel& level, bool pointer) {
-  const std::string tool = exercise.camera                              ? w("Scope, 5 mm")
+  const std::string tool = is_scope(exercise)                           ? w("Scope, 5 mm")
                            : kind_of(exercise).tool == ToolKind::kProbe ? w("Probe, 5 mm")
                                                                         : w("Grasper, 5 mm");
   if (level.mapping != Mapping::kFulcrum)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/picture/attempt/attempt_scene.h"
 #include "app/window/attempt/number_words.h"
 #include "app/window/lessons/lesson_icons.h"
 #include "app/window/run/first_run_hints.h"
@@ -121,8 +122,8 @@ void BriefingScreen::stage_words(Ui& ui, PracticeModel& model) const {
   const ExerciseLevel& level = find_level(exercise, model.level);
   ui.text(lesson_tool(w, exercise, level, model.at_pointer()));
   const auto key = [&](Action action) { return w.name(key_name(model.keys().key_of(action))); };
-  ui.text(level.camera ? w("Scope {0}, in your hand.", {degrees(w, level.camera->tilt_rad)})
-                       : lesson_scope(w, model.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
+  ui.text(is_scope(exercise) ? w("Scope {0}, in your hand.", {degrees(w, own_rules<CameraLevel>(level).tilt_rad)})
+                             : lesson_scope(w, model.scope(), key(Action::kPostLeft), key(Action::kPostRight)));
   if (kind_of(exercise).on_organ)
     ui.text(credit_.empty() ? w("On the organ {0}.", {model.organ}) : w.made(credit_), Ink::kDim);
   else

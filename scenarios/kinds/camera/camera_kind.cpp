@@ -29,8 +29,6 @@ KindDescription camera_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kProbe,
           .watched = WatchedForce::kNone,
-          .limits = [](const Exercise&, const ExerciseLevel&, const Board&, int) { return JudgedForces{}; },
-          .read_targets = [](StrictTable&, TargetLayout&) {},
           .read = read_camera,
           .read_level = read_camera_level,
           .lay_out = lay_out_camera,

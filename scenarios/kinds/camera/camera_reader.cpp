@@ -48,17 +48,18 @@ void read_camera(StrictTable& document, Exercise& exercise) {
   read_view(document.table("view"), rules);
   read_plate(document.table("board"), rules);
   if (rules.timeout_s <= exercise.hold_s) document.fail("hold_s", "'hold_s' must be below 'timeout_s' of the view");
-  exercise.camera = std::make_shared<const CameraRules>(rules);
+  exercise.own = std::make_shared<const CameraRules>(rules);
 }
 
 void read_camera_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
-  CameraLevel camera = level.camera ? *level.camera : CameraLevel{};
+  CameraLevel camera = level.own ? own_rules<CameraLevel>(level) : CameraLevel{};
   keys.number("scope_deg", 0, 70, kDegrees, camera.tilt_rad);
   keys.number("centre_deg", 0.5, 30, kDegrees, camera.centre_rad);
   keys.number("horizon_deg", 1, 90, kDegrees, camera.horizon_rad);
   keys.number("bore_mm", 1, 60, kMilli, camera.bore_m);
-  if (camera.bore_m < exercise.camera->sphere_m) keys.table.fail("bore_mm", "'bore_mm' is narrower than the sphere");
-  level.camera = std::make_shared<const CameraLevel>(camera);
+  if (camera.bore_m < own_rules<CameraRules>(exercise).sphere_m)
+    keys.table.fail("bore_mm", "'bore_mm' is narrower than the sphere");
+  level.own = std::make_shared<const CameraLevel>(camera);
 }
 
 }  // namespace trocar

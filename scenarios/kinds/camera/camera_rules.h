@@ -4,9 +4,11 @@
 // Thread: plain values, fixed after loading.
 #pragma once
 
+#include "scenarios/exercise.h"
+
 namespace trocar {
 
-struct CameraRules {
+struct CameraRules : KindRules {
   double sphere_m = 0;                     ///< diameter
   double cup_depth_m = 0, cup_wall_m = 0;  ///< a sphere lies on the floor of its cup
   double nearest_m = 0, farthest_m = 0;    ///< lens to the sphere's middle, while it is held
@@ -20,7 +22,7 @@ struct CameraRules {
   double board_stiffness_n_per_m = 0;      ///< as displayed
 };
 
-struct CameraLevel {
+struct CameraLevel : KindRules {
   double tilt_rad = 0;     ///< of the scope's tip: 0, or 30 degrees
   double centre_rad = 0;   ///< half opening of the circle in which the sphere's middle must lie
   double horizon_rad = 0;  ///< largest roll of the picture

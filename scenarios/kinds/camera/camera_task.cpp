@@ -17,16 +17,16 @@ constexpr double kToastOfWall = 0.5;    // of the monitor: just touched
 }  // namespace
 
 CameraTask::CameraTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& poses)
-    : rules_(*exercise.camera),
-      level_(*level.camera),
-      R_IC_(picture_in_instrument(level.camera->tilt_rad)),
+    : rules_(own_rules<CameraRules>(exercise)),
+      level_(own_rules<CameraLevel>(level)),
+      R_IC_(picture_in_instrument(own_rules<CameraLevel>(level).tilt_rad)),
       coached_(level.force_display != "after"),
       poses_(poses),
       accounts_(poses.size()),
       hold_(exercise.hold_s, kHoldGrace),
       wall_(kToastOfWall, kToastOfWall, kWallRearm, kWallRepeat) {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    cups_.push_back(cup_of(poses_[i], rules_, *level.camera));
+    cups_.push_back(cup_of(poses_[i], rules_, own_rules<CameraLevel>(level)));
     waiting_.push_back(static_cast<std::int32_t>(i));
   }
 }

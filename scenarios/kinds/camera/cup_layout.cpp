@@ -61,7 +61,7 @@ bool on_plate(const CameraRules& rules, const Cup& cup) {
 std::vector<Target> drawn(const Exercise& exercise, const ExerciseLevel& level, const Mat3& R_TI_rest,
                           BoardRandom& random) {
   const TargetLayout& layout = exercise.layout;
-  const CameraRules& rules = *exercise.camera;
+  const CameraRules& rules = own_rules<CameraRules>(exercise);
   std::vector<Target> targets;
   std::vector<Cup> cups;
   for (int draw = 0; draw < kDraws && static_cast<int>(targets.size()) < layout.count; ++draw) {
@@ -72,7 +72,7 @@ std::vector<Target> drawn(const Exercise& exercise, const ExerciseLevel& level, 
     target.centre_T.z() = within(2 * layout.relief_m);
     target.R_TI = level_instrument(drawn_axis(rules, level, R_TI_rest, target.centre_T, random));
     target.normal_T = -target.R_TI.col(2);
-    const Cup cup = cup_of(target, rules, *level.camera);
+    const Cup cup = cup_of(target, rules, own_rules<CameraLevel>(level));
     if (cup.axis_T.z() > std::sin(rules.steepest_rad) || !on_plate(rules, cup)) continue;
     bool free = true;
     for (std::size_t i = 0; i < targets.size() && free; ++i)
@@ -88,7 +88,7 @@ std::vector<Target> drawn(const Exercise& exercise, const ExerciseLevel& level, 
 }  // namespace
 
 Board lay_out_cups(const Exercise& exercise, const ExerciseLevel& level, const Mat3& R_TI_rest, int board) {
-  const CameraRules& rules = *exercise.camera;
+  const CameraRules& rules = own_rules<CameraRules>(exercise);
   const auto wanted = static_cast<std::size_t>(exercise.layout.count);
   BoardRandom random(board);
   Board result;

@@ -6,22 +6,19 @@
 #pragma once
 
 #include "scenarios/hands/force_grip.h"
-#include "scenarios/hands/hand.h"
-#include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
-#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 
-class GraspJob {
+class GraspJob : public HandWork {
  public:
   explicit GraspJob(const HandSkill& skill);
 
-  /// A block is lit. @param intent what the hand wants at this moment.
-  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
-  /// One period: moves the intent.
-  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+              HandRandom& random) override;
 
  private:
   enum class Step : std::uint8_t {

@@ -155,7 +155,7 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
   in_step_s_ += dt_s;
   const double k = skill_.speed_factor;
   if (step_ != Step::kPinch) intent.jaw_opening_m = std::min(kFeelOpenJaw, intent.jaw_opening_m + kFeelJawSpeed * dt_s);
-  if (pressing()) {  // down, and held where the tissue was met: it is slippery, and it slopes
+  if (touches()) {  // down, and held where the tissue was met: it is slippery, and it slopes
     intent.X_TI.p.z() -= press_.speed(senses.force_n(), dt_s, random) * dt_s;
     intent.X_TI.p.head<2>() += kFeelSideGain / k * dt_s * (touched_T_ - percept.tip_T).head<2>();
   }

@@ -11,24 +11,20 @@
 #include <array>
 
 #include "scenarios/hands/force_grip.h"
-#include "scenarios/hands/hand.h"
-#include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
-#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 
-class PalpateJob {
+class PalpateJob : public HandWork {
  public:
   explicit PalpateJob(const HandSkill& skill);
 
-  /// The search begins. @param intent what the hand wants at this moment.
-  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
-  /// One period: moves the intent.
-  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
-  /// The tip is meant to be on the tissue: what is felt is not the arm's.
-  bool pressing() const { return step_ == Step::kPress || step_ == Step::kPinch || step_ == Step::kLetGo; }
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+              HandRandom& random) override;
+  bool touches() const override { return step_ == Step::kPress || step_ == Step::kPinch || step_ == Step::kLetGo; }
 
  private:
   enum class Step : std::uint8_t { kReach, kLook, kDescend, kPress, kPinch, kLetGo };

@@ -9,8 +9,8 @@ namespace trocar {
 
 Board lay_out_nodules(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
                       const ShaftRoom* room) {
-  const PalpateRules& rules = *exercise.palpate;
-  const PalpateLevel& asked = *level.palpate;
+  const PalpateRules& rules = own_rules<PalpateRules>(exercise);
+  const PalpateLevel& asked = own_rules<PalpateLevel>(level);
   Exercise places = exercise;
   places.layout.count += asked.decoys;
   Board result = lay_out_discs(organ_T, places, level, board, room);

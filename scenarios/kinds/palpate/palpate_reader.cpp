@@ -57,22 +57,22 @@ void read_palpate(StrictTable& document, Exercise& exercise) {
     document.fail("nodules", "'diameter_top_mm' must have as many entries as 'count' of [targets] says");
   if (exercise.layout.count > kMostMarks)
     document.fail("targets", "'count': at most " + std::to_string(kMostMarks) + " nodules can be marked");
-  exercise.palpate = std::move(rules);
+  exercise.own = std::move(rules);
 }
 
 void read_palpate_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& of) {
-  auto level = std::make_shared<PalpateLevel>(of.palpate ? *of.palpate : PalpateLevel());
+  auto level = std::make_shared<PalpateLevel>(of.own ? own_rules<PalpateLevel>(of) : PalpateLevel());
   keys.number("ratio", 1.01, 50, 1, level->ratio);
   level->decoys = keys.table.integer_or("decoys", 0, kMostMarks, level->decoys);
   level->decoy_ratio = keys.table.number_or("decoy_ratio", 1, 50, level->decoy_ratio);
   level->found_shown = keys.table.flag_or("found_shown", level->found_shown);
   if (level->decoy_ratio >= level->ratio)
     keys.table.fail("decoy_ratio", "'decoy_ratio' must be below 'ratio': what is not to be marked is less stiff");
-  const PalpateRules& rules = *exercise.palpate;
+  const PalpateRules& rules = own_rules<PalpateRules>(exercise);
   of.bands = {{rules.press_low_n, rules.press_high_n}};
   of.band_low_n = rules.press_low_n;
   of.band_high_n = rules.press_high_n;
-  of.palpate = std::move(level);
+  of.own = std::move(level);
 }
 
 }  // namespace trocar

@@ -5,6 +5,8 @@
 // Thread: plain values, fixed after loading.
 #pragma once
 
+#include "scenarios/exercise.h"
+
 #include <vector>
 
 namespace trocar {
@@ -14,7 +16,7 @@ struct NodulePlan {
   double radius_m = 0, top_m = 0;
 };
 
-struct PalpateRules {
+struct PalpateRules : KindRules {
   std::vector<NodulePlan> nodules;
   double hit_m = 0;        ///< beyond the ball's radius, along the surface, within which a mark is a hit
   double press_low_n = 0;  ///< with which tissue is judged well
@@ -26,7 +28,7 @@ struct PalpateRules {
 };
 
 /// What a level changes.
-struct PalpateLevel {
+struct PalpateLevel : KindRules {
   double ratio = 1;          ///< of the balls' stiffness to that of what is round them
   int decoys = 0;            ///< balls that are nothing to be marked ...
   double decoy_ratio = 1;    ///< ... and less stiff

@@ -17,8 +17,8 @@ int cells(double extent_m, double cell_m) { return std::max(1, static_cast<int>(
 }  // namespace
 
 PalpateTask::PalpateTask(const Exercise& exercise, const ExerciseLevel& level, const Board& board)
-    : rules_(*exercise.palpate),
-      level_(*level.palpate),
+    : rules_(own_rules<PalpateRules>(exercise)),
+      level_(own_rules<PalpateLevel>(level)),
       display_(level.force_display),
       centre_T_(board.centre_T),
       start_T_(board.start_T),

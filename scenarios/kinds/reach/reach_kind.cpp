@@ -55,8 +55,6 @@ KindDescription reach_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kProbe,
           .watched = WatchedForce::kNone,
-          .limits = [](const Exercise&, const ExerciseLevel&, const Board&, int) { return JudgedForces{}; },
-          .read_targets = [](StrictTable&, TargetLayout&) {},
           .read = read_reach,
           .read_level = read_reach_level,
           .lay_out = lay_out_reach,

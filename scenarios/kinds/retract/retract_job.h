@@ -6,24 +6,20 @@
 #pragma once
 
 #include "scenarios/hands/force_grip.h"
-#include "scenarios/hands/hand.h"
-#include "scenarios/hands/hand_random.h"
 #include "scenarios/hands/hand_script.h"
-#include "scenarios/hands/hand_senses.h"
+#include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 
-class RetractJob {
+class RetractJob : public HandWork {
  public:
   explicit RetractJob(const HandSkill& skill);
 
-  /// A place is lit. @param intent what the hand wants at this moment.
-  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random);
-  /// One period: moves the intent.
-  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
-  /// What is felt is the tissue's, as far as the person knows, and not the arm's alone.
-  bool touches() const { return step_ >= Step::kDescend && step_ <= Step::kOpen; }
+  void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
+  void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+              HandRandom& random) override;
+  bool touches() const override { return step_ >= Step::kDescend && step_ <= Step::kOpen; }
 
  private:
   enum class Step : std::uint8_t { kReach, kLook, kDescend, kClose, kSqueeze, kLift, kLower, kOpen, kRetreat };

@@ -35,14 +35,14 @@ void read_retract(StrictTable& document, Exercise& exercise) {
   // Tissue that stands still cannot be lifted.
   exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
   read_surface(document.table("surface"), exercise);
-  exercise.retract = read_rules(document.table("retract"));
+  exercise.own = read_rules(document.table("retract"));
 }
 
 void read_retract_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
   read_bands(keys, exercise, level);
-  RetractLevel own = level.retract ? *level.retract : RetractLevel{};
+  RetractLevel own = level.own ? own_rules<RetractLevel>(level) : RetractLevel{};
   keys.number("lift_mm", 0.5, 60, kMilli, own.lift_m);
-  level.retract = std::make_shared<const RetractLevel>(own);
+  level.own = std::make_shared<const RetractLevel>(own);
 }
 
 Board lay_out_retract(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
@@ -68,7 +68,7 @@ KindDescription retract_kind() {
           .watched = WatchedForce::kTip,
           .limits =
               [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
-                return JudgedForces{exercise.hard_force_n, exercise.retract->grip_critical_n};
+                return JudgedForces{exercise.hard_force_n, own_rules<RetractRules>(exercise).grip_critical_n};
               },
           .read_targets = read_discs,
           .read = read_retract,

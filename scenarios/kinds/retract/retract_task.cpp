@@ -15,11 +15,11 @@ constexpr double kCoveredBelow = 0.85;     // of what counts as exposed: breath 
 }  // namespace
 
 RetractTask::RetractTask(const Exercise& exercise, const ExerciseLevel& level, const std::vector<Target>& places)
-    : rules_(*exercise.retract),
+    : rules_(own_rules<RetractRules>(exercise)),
       places_(places),
       band_{level.band_low_n, level.band_high_n},
       display_(level.force_display),
-      lift_m_(level.retract->lift_m),
+      lift_m_(own_rules<RetractLevel>(level).lift_m),
       hold_s_(exercise.hold_s),
       hard_n_(exercise.hard_force_n) {}
 

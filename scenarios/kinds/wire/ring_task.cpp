@@ -21,7 +21,7 @@ constexpr double kAcross = 0.5;        // least cosine between normal and wire a
 
 RingTask::RingTask(const Exercise& exercise, const ExerciseLevel& level, const Board& board)
     : ring_(ring_of(exercise, level)),
-      most_depth_m_(exercise.wire->holds_n / exercise.wire->stiffness_n_per_m),
+      most_depth_m_(own_rules<WireRules>(exercise).holds_n / own_rules<WireRules>(exercise).stiffness_n_per_m),
       angle_tolerance_rad_(level.angle_tolerance_rad),
       wire_T_(board.wire_T),
       along_(arc_lengths(board.wire_T)),
@@ -121,15 +121,16 @@ void RingTask::describe(const TaskInput&, DirectorStatus& status) const {
   status.wrong_places = touches_ + (touch_s_ > kLeastTouch ? 1 : 0);
   status.angle_error_rad = angle_rad_;
   status.position_error_m = offset_m_;
-  status.ring = ring_;
-  status.ring.count = 0;
+  status.ring = nullptr;
   if (finished()) return;
   if (on_) {
     const auto middle = std::lower_bound(along_.begin(), along_.end(), at_m_) - along_.begin();
     const auto points = std::min<std::ptrdiff_t>(RingOnWire::kMostPoints, std::ssize(wire_T_));
     const auto first = std::clamp<std::ptrdiff_t>(middle - points / 2, 0, std::ssize(wire_T_) - points);
-    std::copy_n(wire_T_.begin() + first, points, status.ring.point_T.begin());
-    status.ring.count = static_cast<std::int32_t>(points);
+    auto ring = std::make_shared<RingOnWire>(ring_);
+    std::copy_n(wire_T_.begin() + first, points, ring->point_T.begin());
+    ring->count = static_cast<std::int32_t>(points);
+    status.ring = std::move(ring);
   }
   const Target& gate = gates_[static_cast<std::size_t>(gate_)];
   status.demand = {gate.centre_T, gate.normal_T, gate.radius_m, true, gate.R_TI, angle_tolerance_rad_, {}};

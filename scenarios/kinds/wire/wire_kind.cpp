@@ -41,19 +41,19 @@ void read_wire(StrictTable& document, Exercise& exercise) {
   read_line(document.table("wire"), *rules);
   read_ring(document.table("ring"), *rules);
   exercise.counted_hold_s = rules->unhurried_s;
-  exercise.wire = std::move(rules);
+  exercise.own = std::move(rules);
 }
 
 void read_wire_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
-  auto asked = std::make_shared<WireLevel>(level.wire ? *level.wire : WireLevel{});
+  auto asked = std::make_shared<WireLevel>(level.own ? own_rules<WireLevel>(level) : WireLevel{});
   double diameter = 2 * asked->ring_radius_m;
   keys.number("ring_diameter_mm", 1, 100, kMilli, diameter);
   asked->ring_radius_m = diameter / 2;
-  if (asked->ring_radius_m <= exercise.wire->radius_m)
+  if (asked->ring_radius_m <= own_rules<WireRules>(exercise).radius_m)
     keys.table.fail("ring_diameter_mm", "the wire does not fit into the ring");
   keys.number("angle_tolerance_deg", 0.5, 45, kDegrees, level.angle_tolerance_rad);
-  level.position_tolerance_m = asked->ring_radius_m - exercise.wire->radius_m;
-  level.wire = std::move(asked);
+  level.position_tolerance_m = asked->ring_radius_m - own_rules<WireRules>(exercise).radius_m;
+  level.own = std::move(asked);
 }
 
 Board wire_board(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
@@ -82,8 +82,7 @@ KindDescription wire_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kProbe,
           .watched = WatchedForce::kNone,
-          .limits = [](const Exercise&, const ExerciseLevel&, const Board&, int) { return JudgedForces{}; },
-          .read_targets = [](StrictTable&, TargetLayout&) {},
+          .rolls_stylus = true,
           .read = read_wire,
           .read_level = read_wire_level,
           .lay_out = wire_board,

@@ -109,11 +109,11 @@ Mat3 gate_turn(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& no
 }  // namespace
 
 RingOnWire ring_of(const Exercise& exercise, const ExerciseLevel& level) {
-  const WireRules& rules = *exercise.wire;
+  const WireRules& rules = own_rules<WireRules>(exercise);
   RingOnWire ring;
-  ring.centre_I = Vec3(0, 0, level.wire->ring_radius_m + rules.ring_thickness_m / 2);
+  ring.centre_I = Vec3(0, 0, own_rules<WireLevel>(level).ring_radius_m + rules.ring_thickness_m / 2);
   ring.normal_I = Vec3(std::cos(rules.ring_turn_rad), std::sin(rules.ring_turn_rad), 0);
-  ring.play_m = level.wire->ring_radius_m - rules.radius_m;
+  ring.play_m = own_rules<WireLevel>(level).ring_radius_m - rules.radius_m;
   ring.stiffness_n_per_m = rules.stiffness_n_per_m;
   ring.damping_s_per_m = rules.damping_s_per_m;
   return ring;
@@ -132,7 +132,7 @@ std::vector<double> gate_places(int count, double length_m) {
 }
 
 Board lay_out_wire(const Exercise& exercise, const ExerciseLevel& level, const Mat3& R_TI_rest, int board) {
-  const WireRules& rules = *exercise.wire;
+  const WireRules& rules = own_rules<WireRules>(exercise);
   BoardRandom random(board);
   Line line;
   for (int draw = 0; draw < kWireDraws && line.empty(); ++draw) {

@@ -3,10 +3,12 @@
 // Lengths m, angles rad, forces N. Thread: plain values, fixed after loading.
 #pragma once
 
+#include "scenarios/exercise.h"
+
 namespace trocar {
 
 /// What every level shares.
-struct WireRules {
+struct WireRules : KindRules {
   double radius_m = 0, length_m = 0;                   ///< of the wire
   double least_bend_m = 0, widest_bend_m = 0;          ///< radii of its three bends
   double least_heading_rad = 0, most_heading_rad = 0;  ///< of its four legs, up and down in turn, to the way across
@@ -18,7 +20,7 @@ struct WireRules {
   double unhurried_s = 0;        ///< from gate to gate: touching as long is touching all the way
 };
 
-struct WireLevel {
+struct WireLevel : KindRules {
   double ring_radius_m = 0;  ///< inner
 };
 

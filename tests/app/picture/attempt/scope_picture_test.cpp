@@ -45,7 +45,8 @@ TEST(ScopePicture, HasTheSphereOfThePoseInItsMiddleAtEveryLevel) {
   for (const char* level : {"L1", "L2", "L3"}) {
     const Scene scene = board_at(level);
     const SceneView view = Moment(scene).seen();
-    const Cup cup = cup_of(scene.board.targets[3], *scene.setup.exercise.camera, *scene.level.camera);
+    const Cup cup = cup_of(scene.board.targets[3], own_rules<CameraRules>(scene.setup.exercise),
+                           own_rules<CameraLevel>(scene.level));
     EXPECT_EQ(view.camera.eye_T, scene.board.targets[3].centre_T);
     const auto at = ScopeOptics(view.camera, kSquare).project(cup.sphere_T);
     ASSERT_TRUE(at);

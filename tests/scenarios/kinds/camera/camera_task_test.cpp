@@ -40,11 +40,13 @@ class CameraTest : public testing::Test {
     }
     return board;
   }
-  Cup cup(std::size_t index) const { return cup_of(board().targets[index], *exercise_.camera, *level_.camera); }
+  Cup cup(std::size_t index) const {
+    return cup_of(board().targets[index], own_rules<CameraRules>(exercise_), own_rules<CameraLevel>(level_));
+  }
   /// At the sphere's own pose, moved along and turned about the axes of the picture.
   void look_at(std::size_t index, const Vec3& moved_C = Vec3::Zero(), const Vec3& turned_C = Vec3::Zero()) {
     const Target pose = board().targets[index];
-    const Mat3 R_IC = picture_in_instrument(level_.camera->tilt_rad), R_TC = pose.R_TI * R_IC;
+    const Mat3 R_IC = picture_in_instrument(own_rules<CameraLevel>(level_).tilt_rad), R_TC = pose.R_TI * R_IC;
     const double angle = turned_C.norm();
     const Mat3 turn = angle > 0 ? Eigen::AngleAxisd(angle, turned_C / angle).toRotationMatrix() : Mat3::Identity();
     state_.X_TI = {R_TC * turn * R_IC.transpose(), pose.centre_T + R_TC * moved_C};
@@ -115,7 +117,7 @@ TEST_F(CameraTest, TheDistanceMustBeRight) {
 }
 
 TEST_F(CameraTest, TheWallMustNotHideIt) {
-  const double aslant = 20 * kDegree, away = exercise_.camera->drawn_m;
+  const double aslant = 20 * kDegree, away = own_rules<CameraRules>(exercise_).drawn_m;
   EXPECT_FALSE(held_so({away * std::sin(aslant), 0, away * (1 - std::cos(aslant))}, Vec3(0, -aslant, 0)));
   EXPECT_EQ(director_.status().message, "Look along the cup");
   EXPECT_LT(director_.status().angle_error_rad, 1 * kDegree);

@@ -30,16 +30,17 @@ TEST(CupLayout, EachIsSeenWholeLevelAndAlongItsAxisFromWhereItsScopeStands) {
       const Board board = lay_out_cups(shipped(), level, resting(), number);
       ASSERT_EQ(board.targets.size(), 8u);
       for (const Target& target : board.targets) {
-        const Cup cup = cup_of(target, *shipped().camera, *level.camera);
-        const Mat3 R_TC = target.R_TI * picture_in_instrument(level.camera->tilt_rad);
-        EXPECT_NEAR((cup.sphere_T - target.centre_T).dot(R_TC.col(2)), shipped().camera->drawn_m, 1e-9);
+        const Cup cup = cup_of(target, own_rules<CameraRules>(shipped()), own_rules<CameraLevel>(level));
+        const Mat3 R_TC = target.R_TI * picture_in_instrument(own_rules<CameraLevel>(level).tilt_rad);
+        EXPECT_NEAR((cup.sphere_T - target.centre_T).dot(R_TC.col(2)), own_rules<CameraRules>(shipped()).drawn_m, 1e-9);
         EXPECT_NEAR(horizon_of(R_TC).value(), 0, 1e-9);
-        EXPECT_LE(-R_TC(2, 2), std::sin(shipped().camera->steepest_rad) + 1e-9);
+        EXPECT_LE(-R_TC(2, 2), std::sin(own_rules<CameraRules>(shipped()).steepest_rad) + 1e-9);
         EXPECT_TRUE(cup.shows_sphere(target.centre_T));
         if (level.mapping == Mapping::kFulcrum)
           EXPECT_NEAR((target.centre_T - level.port_m).normalized().dot(target.R_TI.col(2)), 1, 1e-9);
         else
-          EXPECT_GE(resting().col(2).dot(target.R_TI.col(2)), std::cos(shipped().camera->swing_rad) - 1e-9);
+          EXPECT_GE(resting().col(2).dot(target.R_TI.col(2)),
+                    std::cos(own_rules<CameraRules>(shipped()).swing_rad) - 1e-9);
       }
     }
   }
@@ -50,11 +51,11 @@ TEST(CupLayout, NoCupStandsInAnothersOrInItsLineOfSight) {
   for (int number = 0; number < 20; ++number) {
     const Board board = lay_out_cups(shipped(), level, resting(), number);
     for (const Target& seen : board.targets) {
-      const Cup cup = cup_of(seen, *shipped().camera, *level.camera);
-      EXPECT_GT(cup.foot_T().z(), shipped().camera->board_z_m);
+      const Cup cup = cup_of(seen, own_rules<CameraRules>(shipped()), own_rules<CameraLevel>(level));
+      EXPECT_GT(cup.foot_T().z(), own_rules<CameraRules>(shipped()).board_z_m);
       for (const Target& other : board.targets) {
         if (&other == &seen) continue;
-        const Cup beside = cup_of(other, *shipped().camera, *level.camera);
+        const Cup beside = cup_of(other, own_rules<CameraRules>(shipped()), own_rules<CameraLevel>(level));
         for (double share = 0; share <= 1; share += 0.05)
           EXPECT_GT(beside.distance_m(seen.centre_T + share * (cup.foot_T() - seen.centre_T)), 0.0025) << number;
       }

@@ -26,8 +26,8 @@ TEST(PalpateLayout, TwentyBoardsOfEachLevel) {
     for (int number = 0; number < 20; ++number) {
       const Board board = lay_out_nodules(organ, exercise, level, number);
       ASSERT_TRUE(board.targets.empty());
-      ASSERT_EQ(board.nodules.size(),
-                exercise.palpate->nodules.size() + static_cast<std::size_t>(level.palpate->decoys));
+      ASSERT_EQ(board.nodules.size(), own_rules<PalpateRules>(exercise).nodules.size() +
+                                          static_cast<std::size_t>(own_rules<PalpateLevel>(level).decoys));
       for (std::size_t i = 0; i < board.nodules.size(); ++i) {
         const HiddenNodule& one = board.nodules[i];
         const auto top = field.top(one.centre_T.x(), one.centre_T.y());
@@ -49,18 +49,19 @@ TEST(PalpateLayout, WhatIsNoNoduleIsLessStiffAndComesLast) {
   const Board board = lay_out_nodules(organ, exercise, level, 1);
   ASSERT_EQ(board.nodules.size(), 4u);
   for (int i = 0; i < 3; ++i)
-    EXPECT_DOUBLE_EQ(board.nodules[static_cast<std::size_t>(i)].stiffness_ratio, level.palpate->ratio);
-  EXPECT_DOUBLE_EQ(board.nodules[3].stiffness_ratio, level.palpate->decoy_ratio);
+    EXPECT_DOUBLE_EQ(board.nodules[static_cast<std::size_t>(i)].stiffness_ratio, own_rules<PalpateLevel>(level).ratio);
+  EXPECT_DOUBLE_EQ(board.nodules[3].stiffness_ratio, own_rules<PalpateLevel>(level).decoy_ratio);
 }
 
 TEST(PalpateLoader, ReadsTheShippedExercise) {
   const Exercise exercise = shipped();
-  ASSERT_TRUE(exercise.palpate);
-  EXPECT_DOUBLE_EQ(exercise.palpate->nodules[0].radius_m, 0.009);
-  EXPECT_DOUBLE_EQ(exercise.palpate->mark_hold_s, 1.5);
-  EXPECT_TRUE(find_level(exercise, "L1").palpate->found_shown);
-  EXPECT_FALSE(find_level(exercise, "exam").palpate->found_shown);
-  EXPECT_DOUBLE_EQ(find_level(exercise, "exam").palpate->ratio, find_level(exercise, "L3").palpate->ratio);
+  ASSERT_TRUE(exercise.own);
+  EXPECT_DOUBLE_EQ(own_rules<PalpateRules>(exercise).nodules[0].radius_m, 0.009);
+  EXPECT_DOUBLE_EQ(own_rules<PalpateRules>(exercise).mark_hold_s, 1.5);
+  EXPECT_TRUE(own_rules<PalpateLevel>(find_level(exercise, "L1")).found_shown);
+  EXPECT_FALSE(own_rules<PalpateLevel>(find_level(exercise, "exam")).found_shown);
+  EXPECT_DOUBLE_EQ(own_rules<PalpateLevel>(find_level(exercise, "exam")).ratio,
+                   own_rules<PalpateLevel>(find_level(exercise, "L3")).ratio);
 }
 
 TEST(PalpateLoader, RefusesWhatCannotBe) {

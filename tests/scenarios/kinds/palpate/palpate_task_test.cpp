@@ -35,7 +35,7 @@ class PalpateTest : public testing::Test {
     Board board;
     board.start_T = Vec3(0, 0, 0.045);
     for (std::size_t i = 0; i < 3; ++i) {
-      const NodulePlan& plan = exercise_.palpate->nodules[i];
+      const NodulePlan& plan = own_rules<PalpateRules>(exercise_).nodules[i];
       board.nodules.push_back({places()[i] - Vec3(0, 0, plan.top_m + plan.radius_m), plan.radius_m, 6});
     }
     return board;
@@ -122,7 +122,8 @@ TEST_F(PalpateTest, AMarkOverEachEndsItAndAllAreFound) {
 }
 
 TEST_F(PalpateTest, BesideTheMarginIsFalse) {
-  const double reach = exercise_.palpate->nodules[0].radius_m + exercise_.palpate->hit_m;
+  const double reach =
+      own_rules<PalpateRules>(exercise_).nodules[0].radius_m + own_rules<PalpateRules>(exercise_).hit_m;
   mark(places()[0] + Vec3(reach + 0.0005, 0, 0));
   EXPECT_EQ(count(event_type::kFalseMark), 1);
   EXPECT_NEAR(last(event_type::kFalseMark).value, reach + 0.0005, 1e-9);
