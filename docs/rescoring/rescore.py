@@ -317,7 +317,7 @@ def score(attempt):
     rubric, context = attempt.rubric, attempt.context
     if context["outcome"] not in ACTING or attempt.result["status"] == "void":
         return None, {}  # nothing is graded: left, ended by the device, or its record or pacing is unfit
-    parts, total, most = {}, 0.0, 100.0
+    parts, total, most, danger = {}, 0.0, 100.0, 100.0
     for rule in rubric["subscores"]:
         if rule["metric"] not in METRICS:
             raise SystemExit(f"this program does not know the metric {rule['metric']}")
@@ -327,12 +327,12 @@ def score(attempt):
         parts[rule["name"]] = (raw, share)
         total += rule["weight"] * share
         if rule["gate"] and share < rule["gate_below"]:
-            most = min(most, rubric["gate_cap"])
+            danger = min(danger, rubric["gate_cap"])
     if any(e["severity"] == "critical" for e in attempt.events):
-        most = min(most, rubric["critical_cap"])
+        danger = min(danger, rubric["critical_cap"])
     if context["outcome"] == "timeout" or context["objects_done"] < context["objects_total"]:
         most = min(most, rubric["unfinished_cap"] * context["objects_done"] / context["objects_total"])
-    return min(100 * total, most), parts
+    return min(total * danger if rubric["caps"] == "scale" else min(100 * total, danger), most), parts
 
 
 def differs(a, b):

@@ -139,6 +139,10 @@ Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
   rubric.gate_cap = table.number("gate_cap", 0, rubric.pass_at);
   rubric.critical_cap = table.number("critical_cap", 0, rubric.pass_at);
   rubric.unfinished_cap = table.number("unfinished_cap", 0, rubric.pass_at);
+  if (table.has("caps"))
+    rubric.caps_scale = table.choice("caps", {"cut", "scale"}) == "scale";
+  else
+    table.allow("caps");
   const std::vector<AnchorUnit> units{
       {"_expert_times", level.expert_time_s > 0 ? level.expert_time_s : own_time_s,
        "'expert_time_s' in every level or in [rubric]"},

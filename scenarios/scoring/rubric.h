@@ -1,7 +1,8 @@
 // A rubric: how metrics become sub-scores, a total, caps and a grade. Read from the exercise's TOML
 // (scenarios/files/exercise_loader.h) and stored with every attempt by its sha256.
 //
-// S = 100 * sum_k w_k s_k with s_k = clamp((x - zero_at) / (full_at - zero_at), 0, 1); gates and critical events cap S.
+// S = 100 * sum_k w_k s_k with s_k = clamp((x - zero_at) / (full_at - zero_at), 0, 1); gates and critical events cap S
+// (caps_scale).
 #pragma once
 
 #include <optional>
@@ -29,7 +30,10 @@ struct Rubric {
   double gate_cap = 59;        ///< total when a gate fails
   double critical_cap = 49;    ///< total after a critical event
   double unfinished_cap = 49;  ///< times the share of objects done, when time ran out or one was lost
-  std::string sha256;          ///< of the exercise file's bytes
+  /// Gates and critical events leave gate_cap or critical_cap of 100 of the score, so that who does better below a cap
+  /// still scores better; false, as rubrics without the word have it: the score is cut off at the cap.
+  bool caps_scale = false;
+  std::string sha256;  ///< of the exercise file's bytes
 };
 
 }  // namespace trocar

@@ -14,30 +14,33 @@ const Metric* metric_named(const std::vector<Metric>& metrics, const std::string
   return it == metrics.end() ? nullptr : &*it;
 }
 
-/// Lowers the score to a cap and writes down why. A cap is listed even when the score lies below it already.
-void apply_cap(Grade& grade, const Cap& cap) {
-  grade.score = std::min(*grade.score, cap.at_most);
+/// Writes down a cap and holds the score down to what it leaves. It is listed even when the score lies below already.
+void apply_cap(Grade& grade, const Cap& cap, double left) {
+  grade.score = std::min(*grade.score, left);
   grade.caps.push_back(cap);
 }
 
 void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& context) {
+  const double uncapped = *grade.score;
+  const auto danger = [&](const Cap& cap) {
+    apply_cap(grade, cap, rubric.caps_scale ? uncapped * cap.at_most / 100 : cap.at_most);
+  };
   for (std::size_t k = 0; k < rubric.subscores.size(); ++k) {
     const SubscoreRule& rule = rubric.subscores[k];
     if (rule.gate && grade.subscores[k].value < rule.gate_below)
-      apply_cap(grade,
-                {.kind = CapKind::kGate, .subject = rule.name, .below = rule.gate_below, .at_most = rubric.gate_cap});
+      danger({.kind = CapKind::kGate, .subject = rule.name, .below = rule.gate_below, .at_most = rubric.gate_cap});
   }
   const Metric* critical = metric_named(grade.metrics, "critical_events");
-  if (critical && critical->value.value_or(0) > 0)
-    apply_cap(grade, {.kind = CapKind::kCritical, .at_most = rubric.critical_cap});
+  if (critical && critical->value.value_or(0) > 0) danger({.kind = CapKind::kCritical, .at_most = rubric.critical_cap});
   // An attempt may also end with something undone: a lost object cannot be fetched back.
   const bool undone = context.objects_done < context.objects_total;
   if (context.outcome != AttemptStatus::kTimeout && !undone) return;
   const double share = context.objects_total > 0 ? 1.0 * context.objects_done / context.objects_total : 0;
-  apply_cap(grade, {.kind = CapKind::kUnfinished,
-                    .done = context.objects_done,
-                    .total = context.objects_total,
-                    .at_most = rubric.unfinished_cap * std::clamp(share, 0.0, 1.0)});
+  const double at_most = rubric.unfinished_cap * std::clamp(share, 0.0, 1.0);
+  apply_cap(
+      grade,
+      {.kind = CapKind::kUnfinished, .done = context.objects_done, .total = context.objects_total, .at_most = at_most},
+      at_most);
 }
 
 std::string grade_name(double score, const Rubric& rubric) {

@@ -122,10 +122,14 @@ std::string rubric_json(const Rubric& rubric) {
                          {"gate", rule.gate},
                          {"gate_below", rule.gate ? Json(rule.gate_below) : Json()}});
   }
-  const Json json = {
-      {"pass_at", rubric.pass_at},   {"proficient_at", rubric.proficient_at}, {"expert_at", rubric.expert_at},
-      {"gate_cap", rubric.gate_cap}, {"critical_cap", rubric.critical_cap},   {"unfinished_cap", rubric.unfinished_cap},
-      {"subscores", subscores}};
+  const Json json = {{"pass_at", rubric.pass_at},
+                     {"proficient_at", rubric.proficient_at},
+                     {"expert_at", rubric.expert_at},
+                     {"gate_cap", rubric.gate_cap},
+                     {"critical_cap", rubric.critical_cap},
+                     {"unfinished_cap", rubric.unfinished_cap},
+                     {"caps", rubric.caps_scale ? "scale" : "cut"},
+                     {"subscores", subscores}};
   return json.dump(2);
 }
 

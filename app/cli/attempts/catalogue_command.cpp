@@ -91,9 +91,9 @@ void explain_exercise(const Exercise& exercise, std::ostream& out) {
   for (const ExerciseLevel& level : exercise.levels) {
     out << exercise.id << ' ' << level.name << ": S = 100 x sum of weight x clamp((x - none) / (full - none), 0, 1)\n";
     for (const SubscoreRule& rule : level.rubric.subscores) explain_rule(rule, out);
-    out << "  caps: " << level.rubric.gate_cap << " safety gate, " << level.rubric.critical_cap << " critical event, "
-        << level.rubric.unfinished_cap << " x share done when time runs out; pass from " << level.rubric.pass_at
-        << '\n';
+    out << "  caps" << (level.rubric.caps_scale ? " (hundredths left of S): " : ": ") << level.rubric.gate_cap
+        << " safety gate, " << level.rubric.critical_cap << " critical event, " << level.rubric.unfinished_cap
+        << " x share done when time runs out; pass from " << level.rubric.pass_at << '\n';
   }
   out << "rubric " << exercise.rubric.sha256
       << " (the file's SHA-256; the origin of each number stands in its comments: " << exercise.file.filename().string()

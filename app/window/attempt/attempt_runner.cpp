@@ -131,7 +131,8 @@ void AttemptRunner::State::record_and_grade() {
   hooks.interrupted = [this] { return abort.load(); };
   if (steered)
     hooks.hand = [this] {
-      return std::make_unique<PersonHand>(link, scene->loop.daq.motors ? std::nullopt : std::optional(entry_T(*scene)));
+      return std::make_unique<PersonHand>(link, scene->loop.daq.motors ? std::nullopt : std::optional(entry_T(*scene)),
+                                          &pause);
     };
   if (!steps) hooks.pause = &pause;
   hooks.marks = &marks;

@@ -36,6 +36,17 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   intent_.exchange = wanted.exchange;
 }
 
+/// @return whether the hand takes up the instrument again after a pause.
+bool PersonHand::takes_up(double dt_s) {
+  if (!pause_) return false;
+  if (const std::int64_t stood_ns = pause_->stood_ns(); stood_ns != stood_ns_) {
+    stood_ns_ = stood_ns;
+    takes_up_s_ = kTakesUp;
+  }
+  takes_up_s_ -= dt_s;
+  return takes_up_s_ > 0;
+}
+
 HandIntent PersonHand::update(const Percept& percept, double dt_s) {
   const bool ready = link_.ready.load(std::memory_order_relaxed);
   if (!holding_ || (!ready && percept.device_ready)) {
@@ -47,7 +58,10 @@ HandIntent PersonHand::update(const Percept& percept, double dt_s) {
   link_.felt.store(taken_, std::memory_order_release);  // the tick of the previous call is over
   if (ready) {
     const SteeredIntent& wanted = link_.wanted.read();
-    if (wanted.number > 0) follow(wanted.intent, percept, dt_s);
+    if (takes_up(dt_s))
+      intent_.clutch = true;
+    else if (wanted.number > 0)
+      follow(wanted.intent, percept, dt_s);
     taken_ = wanted.number;
   }
   link_.target.write(intent_);

@@ -9,9 +9,11 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "app/session/lanes/pause_switch.h"
 #include "app/window/input/careful_press.h"
 #include "haptics/exchange/latest.h"
 #include "scenarios/hands/hand.h"
@@ -39,18 +41,28 @@ class PersonHand final : public Hand {
   static constexpr double kTurnSpeed = 6;       ///< rad/s
   static constexpr double kFingerSpeed = 0.05;  ///< m/s: fully open to closed in 0.4 s
 
+  static constexpr double kTakesUp = 0.03;  ///< s: some steps of the director
+
   static constexpr double kFingerPress = 0.0012;  ///< careful: of the fingers, 0.36 N/s at 300 N/m
 
   /// @param link outlives the hand. @param entry_T without a device: where the hand brings the instrument in. Nothing
   /// pushes back then, and what is touched is pressed slowly, so that a force can be had by eye.
-  explicit PersonHand(HandLink& link, std::optional<Vec3> entry_T = {}) : link_(link), entry_T_(std::move(entry_T)) {}
+  /// @param pause outlives the hand. After each one the instrument is clutched for kTakesUp: a hold that was going on
+  /// begins anew, so that a person cannot stop the world, look, and go on within it. As the clutch is recorded, so is
+  /// this.
+  explicit PersonHand(HandLink& link, std::optional<Vec3> entry_T = {}, const PauseSwitch* pause = nullptr)
+      : link_(link), entry_T_(std::move(entry_T)), pause_(pause) {}
   HandIntent update(const Percept& percept, double dt_s) override;
 
  private:
+  bool takes_up(double dt_s);
   void follow(const HandIntent& wanted, const Percept& percept, double dt_s);
 
   HandLink& link_;
   std::optional<Vec3> entry_T_;
+  const PauseSwitch* pause_;
+  std::int64_t stood_ns_ = 0;  ///< pauses that have been taken up
+  double takes_up_s_ = 0;      ///< left of it
   HandIntent intent_;
   std::uint64_t taken_ = 0;  ///< number of the newest intent
   bool holding_ = false;

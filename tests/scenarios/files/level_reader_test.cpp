@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Levels, RefuseNamesAndModelsThatAreNotThere) {
   EXPECT_NE(refusal(with_levels(level("L7", ""))).find("known are L1, L2, L3, exam"), std::string::npos);
   const std::string later = "[[levels]]\nname = \"L2\"\nlike = \"L3\"\n";
-  EXPECT_NE(refusal(with_levels(kFirst + later)).find("bad.toml:60:8: 'like' is \"L3\": known are L1"),
+  EXPECT_NE(refusal(with_levels(kFirst + later)).find("bad.toml:64:8: 'like' is \"L3\": known are L1"),
             std::string::npos)
       << refusal(with_levels(kFirst + later));
   EXPECT_NE(refusal(with_levels(later)).find("this is the first"), std::string::npos);

@@ -141,6 +141,25 @@ TEST(Caps, FailedGateHoldsAtFiftyNine) {
             (std::vector<Cap>{{.kind = CapKind::kGate, .subject = "excess force", .below = 0.5, .at_most = 59}}));
 }
 
+TEST(Caps, ScaledTheyKeepWhoIsBetter) {
+  Rubric scaled = rubric_of_e02();
+  scaled.caps_scale = true;
+  const auto danger = made_event(9, "CRITICAL_FORCE", 0, Severity::kCritical);
+  const auto scored = [&](const std::vector<Event>& events) {
+    return *score_attempt(good_trace(), events, scaled, finished_context()).score;
+  };
+  const double free = scored(good_events()), once = scored(with(good_events(), danger));
+  EXPECT_DOUBLE_EQ(once, 0.49 * free);
+  const double worse = scored(with(with(good_events(), made_event(8, "WRONG_PLACE", 1, Severity::kMinor)), danger));
+  EXPECT_LT(worse, once) << "cut off, both would score 49";
+  EXPECT_GT(worse, 0.9 * once);
+  auto both = with(good_events(), danger);
+  for (int i = 0; i < 4; ++i) both = with(both, made_event(7 + i, "EXCESS_FORCE", 1, Severity::kMajor));
+  const Grade grade = score_attempt(good_trace(), both, scaled, finished_context());
+  EXPECT_EQ(grade.caps.size(), 2u);
+  EXPECT_LT(*grade.score, once) << "the lower of two caps holds, of a score that is lower too";
+}
+
 TEST(Caps, UnfinishedRunsEarnAtMostTheirShare) {
   ScoringContext context = finished_context();
   context.outcome = AttemptStatus::kTimeout;

@@ -12,7 +12,8 @@ constexpr double kTick = 1e-3;
 
 struct Bench {
   std::unique_ptr<HandLink> link = std::make_unique<HandLink>();
-  PersonHand hand{*link};
+  PauseSwitch pause;
+  PersonHand hand{*link, {}, &pause};
   Percept percept;
   std::uint64_t number = 0;
 
@@ -110,6 +111,20 @@ TEST(PersonHand, TheClutchIsHandedOn) {
   bench.tick();
   bench.link->wanted.write({{{Mat3::Identity(), bench.percept.tip_T}, 0.02, true}, 1});
   EXPECT_TRUE(bench.tick().clutch);
+}
+
+TEST(PersonHand, AfterAPauseItTakesUpTheInstrumentByTheClutch) {
+  Bench bench;
+  bench.percept.device_ready = true;
+  bench.steer(bench.percept.tip_T);
+  EXPECT_FALSE(bench.tick(100).clutch);
+  bench.pause.set(true);
+  bench.pause.set(false);
+  bench.steer(bench.percept.tip_T + Vec3(0.05, 0, 0));
+  const HandIntent taken = bench.tick(static_cast<int>(PersonHand::kTakesUp / kTick) - 1);
+  EXPECT_TRUE(taken.clutch) << "a hold begins anew under the clutch";
+  EXPECT_EQ(taken.X_TI.p, bench.percept.tip_T) << "and what was steered meanwhile is not gone through in it";
+  EXPECT_FALSE(bench.tick(2).clutch) << "once a pause";
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(GraspCheats, RegraspLoopsOnlyCost) {
   const Grade grade = bench.grade();
   EXPECT_EQ(value_of(grade.metrics, "block_regrasps"), 3.0);
   EXPECT_EQ(value_of(grade.metrics, "objects_done_share"), 1.0);
-  EXPECT_LE(grade.score.value(), honest().score.value() - 100 * 0.15 * 3 / 4 + 1e-9);
+  EXPECT_LE(grade.score.value(), honest().score.value() - 100 * 0.10 * 3 / 4 + 1e-9);
 }
 
 TEST(GraspCheats, TakingAPlacedBlockOutAndBackCountsItOnce) {
@@ -219,11 +219,11 @@ TEST(GraspCheats, NoErrorEventEverRaisesTheScore) {
   }
 }
 
-TEST(GraspCheats, EachCrushAndRegraspLowersAFaultlessScore) {
+TEST(GraspCheats, EachCrushRegraspAndExcessLowersAFaultlessScore) {
   GraspBench bench;
   bench.place_all();
   const double t = bench.last("DONE").t_s - 0.01;
-  for (const char* type : {"CRUSH", "REGRASP"}) {
+  for (const char* type : {"CRUSH", "REGRASP", "EXCESS_FORCE"}) {
     std::vector<Event> events = bench.director.events();
     double before = bench.grade(events).score.value();
     for (int i = 0; i < 2; ++i) {  // the second crush closes the gate: from there on the cap holds
@@ -233,6 +233,9 @@ TEST(GraspCheats, EachCrushAndRegraspLowersAFaultlessScore) {
       before = now;
     }
   }
+  std::vector<Event> pressed = bench.director.events();
+  for (int i = 0; i < 4; ++i) pressed = with(pressed, made_event(t, "EXCESS_FORCE", i, Severity::kMajor));
+  EXPECT_FALSE(bench.grade(pressed).passed) << "pressing block and board into each other is no way to place";
 }
 
 }  // namespace
