@@ -419,7 +419,7 @@ TEST(PracticeModel, TheExpertDoesWhatTheAttemptDidNotWhatTheDeskWouldDoNow) {
   ASSERT_EQ(model->begin_attempt(), "");
   ASSERT_TRUE(model->end_attempt());
   model->organ = "phantom-abdomen";  // chosen since
-  for (int i = 0; i < 3000 && model->expert_recording().empty() && model->expert_refusal().empty(); ++i)
+  for (int i = 0; i < 9000 && model->expert_recording().empty() && model->expert_refusal().empty(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ASSERT_FALSE(model->expert_recording().empty()) << model->expert_refusal();
   const AttemptSetup own = recorded_setup(model->recording()), beside = recorded_setup(model->expert_recording());
