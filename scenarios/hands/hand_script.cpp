@@ -61,7 +61,7 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
   StrictTable document = StrictTable::parse(text, file);
   HandScript script;
   script.name = document.text("name");
-  const std::string kind = document.choice("kind", {"skilled", "waypoints", "learner", "idle"});
+  const std::string kind = document.choice("kind", {"skilled", "waypoints", "learner", "population", "idle"});
   if (kind == "skilled") {
     script.kind = HandKind::kSkilled;
     script.skill = read_skill(document.table("skill"));
@@ -75,6 +75,12 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
     script.learning = {learning.text("from"), learning.text("to"), learning.number("attempts", 0.1, 1000)};
     learning.finish();
   }
+  if (kind == "population") {
+    script.kind = HandKind::kPopulation;
+    StrictTable population = document.table("population");
+    script.population = {population.text("from"), population.text("to"), population.number("spread_cv", 0, 1)};
+    population.finish();
+  }
   document.finish();
   return script;
 }
@@ -86,12 +92,7 @@ HandScript load_hand_script(const std::filesystem::path& file) {
 HandSkill learned_skill(const HandSkill& from, const HandSkill& to, double attempts, int attempt) {
   const double left = std::exp(-std::max(0, attempt - 1) / attempts);
   HandSkill skill = to;
-  for (double HandSkill::*number :
-       {&HandSkill::speed_factor, &HandSkill::aim_lateral_m, &HandSkill::aim_depth_m, &HandSkill::aim_angle_rad,
-        &HandSkill::settle_share, &HandSkill::tremor_m, &HandSkill::pause_s, &HandSkill::force_bias,
-        &HandSkill::force_cv, &HandSkill::path_bulge, &HandSkill::hover_m, &HandSkill::approach_speed_mps,
-        &HandSkill::reaction_s, &HandSkill::population_cv})
-    skill.*number += left * (from.*number - to.*number);
+  for (double HandSkill::*const number : kSkillNumbers) skill.*number += left * (from.*number - to.*number);
   skill.max_corrections += static_cast<int>(std::lround(left * (from.max_corrections - to.max_corrections)));
   return skill;
 }

@@ -4,6 +4,7 @@
 // Lengths m, times s inside; the file uses _mm keys. Thread: loading only.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -50,6 +51,13 @@ struct ScriptedMove {
   std::optional<InstrumentKind> instrument = {};
 };
 
+/// Numbers of a skill that lie between those of two other skills when the skill does; max_corrections is counted.
+inline constexpr std::array kSkillNumbers{
+    &HandSkill::speed_factor, &HandSkill::aim_lateral_m, &HandSkill::aim_depth_m, &HandSkill::aim_angle_rad,
+    &HandSkill::settle_share, &HandSkill::tremor_m,      &HandSkill::pause_s,     &HandSkill::force_bias,
+    &HandSkill::force_cv,     &HandSkill::path_bulge,    &HandSkill::hover_m,     &HandSkill::approach_speed_mps,
+    &HandSkill::reaction_s,   &HandSkill::population_cv};
+
 /// A person who gets better: every number of the skill goes from one hand's to another's, e^(-(n - 1) / attempts) of
 /// the way left at attempt n.
 struct Learning {
@@ -57,7 +65,13 @@ struct Learning {
   double attempts = 8;   ///< time constant
 };
 
-enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kIdle };
+/// Many people between two hands: person k is meant by NAME#k (scenarios/hands/population.h).
+struct Population {
+  std::string from, to;  ///< hands of the same folder: latent skill 0 and 1
+  double spread_cv = 0;  ///< of every number of a person's skill about what the latent skill makes it
+};
+
+enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kPopulation, kIdle };
 
 struct HandScript {
   std::string name;
@@ -65,6 +79,7 @@ struct HandScript {
   HandSkill skill;
   std::vector<ScriptedMove> moves;
   Learning learning;
+  Population population;
 };
 
 /// @throws InputError "FILE:LINE:COLUMN: message".

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/hands/population.h"
 #include "scenarios/kinds/grasp/grasp_job.h"
 #include "scenarios/kinds/palpate/palpate_job.h"
 #include "scenarios/kinds/retract/retract_job.h"
@@ -39,15 +40,6 @@ constexpr double kDiscGripTouch = 0.12;                   // N
 constexpr std::uint64_t kJobStride = 0x9e3779b97f4a7c15;  // keeps the streams of the jobs apart
 
 }  // namespace
-
-HandSkill SkilledHand::drawn_person(const HandSkill& skill, HandRandom& random) {
-  HandSkill person = skill;
-  if (skill.population_cv <= 0) return person;
-  for (double* value : {&person.speed_factor, &person.aim_lateral_m, &person.aim_depth_m, &person.aim_angle_rad,
-                        &person.tremor_m, &person.pause_s, &person.force_bias, &person.force_cv, &person.path_bulge})
-    *value *= random.log_normal(skill.population_cv);
-  return person;
-}
 
 SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
     : seed_(seed),

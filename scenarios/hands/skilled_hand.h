@@ -28,7 +28,6 @@ class SkilledHand : public Hand {
  private:
   enum class Step : std::uint8_t { kStill, kReach, kLook, kDescend, kPress, kSqueeze };
 
-  static HandSkill drawn_person(const HandSkill& skill, HandRandom& random);
   Percept attend(const Percept& percept);
   void act(const Percept& percept, double dt_s);
   void begin_task(const Percept& percept);

@@ -20,7 +20,7 @@ void apply_cap(Grade& grade, const Cap& cap, double left) {
   grade.caps.push_back(cap);
 }
 
-void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& context) {
+void apply_caps(Grade& grade, const Rubric& rubric, const AttemptEnd& end) {
   const double uncapped = *grade.score;
   const auto danger = [&](const Cap& cap) {
     apply_cap(grade, cap, rubric.caps_scale ? uncapped * cap.at_most / 100 : cap.at_most);
@@ -33,14 +33,13 @@ void apply_caps(Grade& grade, const Rubric& rubric, const ScoringContext& contex
   const Metric* critical = metric_named(grade.metrics, "critical_events");
   if (critical && critical->value.value_or(0) > 0) danger({.kind = CapKind::kCritical, .at_most = rubric.critical_cap});
   // An attempt may also end with something undone: a lost object cannot be fetched back.
-  const bool undone = context.objects_done < context.objects_total;
-  if (context.outcome != AttemptStatus::kTimeout && !undone) return;
-  const double share = context.objects_total > 0 ? 1.0 * context.objects_done / context.objects_total : 0;
+  const bool undone = end.objects_done < end.objects_total;
+  if (end.outcome != AttemptStatus::kTimeout && !undone) return;
+  const double share = end.objects_total > 0 ? 1.0 * end.objects_done / end.objects_total : 0;
   const double at_most = rubric.unfinished_cap * std::clamp(share, 0.0, 1.0);
-  apply_cap(
-      grade,
-      {.kind = CapKind::kUnfinished, .done = context.objects_done, .total = context.objects_total, .at_most = at_most},
-      at_most);
+  apply_cap(grade,
+            {.kind = CapKind::kUnfinished, .done = end.objects_done, .total = end.objects_total, .at_most = at_most},
+            at_most);
 }
 
 std::string grade_name(double score, const Rubric& rubric) {
@@ -77,7 +76,14 @@ Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const 
   if (context.outcome == AttemptStatus::kCompleted && !graded_window(trace, events))
     return void_grade("completed without a START event");
 
-  grade.metrics = compute_metrics(trace, events, context);
+  return grade_metrics(compute_metrics(trace, events, context), rubric,
+                       {context.outcome, context.objects_done, context.objects_total});
+}
+
+Grade grade_metrics(std::vector<Metric> metrics, const Rubric& rubric, const AttemptEnd& end) {
+  Grade grade;
+  grade.status = end.outcome;
+  grade.metrics = std::move(metrics);
   double total = 0;
   for (const SubscoreRule& rule : rubric.subscores) {
     const Metric* metric = metric_named(grade.metrics, rule.metric);
@@ -88,8 +94,8 @@ Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const 
         {rule.name, value, rule.weight, raw, metric ? metric->unit : "", rule.full_at, rule.zero_at, rule.gate});
   }
   grade.score = 100 * total;
-  apply_caps(grade, rubric, context);
-  grade.passed = grade.caps.empty() && context.outcome == AttemptStatus::kCompleted && *grade.score >= rubric.pass_at;
+  apply_caps(grade, rubric, end);
+  grade.passed = grade.caps.empty() && end.outcome == AttemptStatus::kCompleted && *grade.score >= rubric.pass_at;
   grade.grade = grade.caps.empty() ? grade_name(*grade.score, rubric) : "below pass";
   return grade;
 }

@@ -22,6 +22,15 @@ double subscore_value(const SubscoreRule& rule, const std::optional<double>& met
 Grade score_attempt(const Trace& trace, const std::vector<Event>& events, const Rubric& rubric,
                     const ScoringContext& context);
 
+/// What the caps ask of an attempt beside its metrics.
+struct AttemptEnd {
+  AttemptStatus outcome = AttemptStatus::kCompleted;  ///< or timeout: others carry no number
+  int objects_done = 0, objects_total = 0;
+};
+
+/// Grade of metrics that are known already, so that another rubric needs neither trace nor another run.
+Grade grade_metrics(std::vector<Metric> metrics, const Rubric& rubric, const AttemptEnd& end);
+
 /// Not to be graded: no number, and the reason among the caps.
 Grade void_grade(const std::string& reason);
 

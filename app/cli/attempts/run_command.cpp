@@ -271,7 +271,8 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
                               chosen, [given] { return run_command(*given, std::cout, std::cerr); });
   run->add_option("exercise", o.exercise, "Exercise id, number or FILE.toml")->required();
   run->add_option("--hand", o.hand,
-                  "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, learner, or SCRIPT.toml")
+                  "expert, intermediate, novice, clumsy, speed-runner, heavy-handed, idle, learner, population#1, or "
+                  "SCRIPT.toml")
       ->required();
   run->add_option("--attempt", o.attempt,
                   "Attempt of the learner, from 1 (default: one more than the trainee has stored)")

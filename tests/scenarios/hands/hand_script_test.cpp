@@ -28,9 +28,9 @@ std::string refusal(const std::string& from, const std::string& to) {
   return "accepted";
 }
 
-TEST(HandScripts, AllSevenAndTheLearnerAreShipped) {
-  const std::vector<std::string> names = {"clumsy",       "expert",  "heavy-handed", "idle",
-                                          "intermediate", "learner", "novice",       "speed-runner"};
+TEST(HandScripts, AllSevenTheLearnerAndThePopulationAreShipped) {
+  const std::vector<std::string> names = {"clumsy",  "expert", "heavy-handed", "idle",        "intermediate",
+                                          "learner", "novice", "population",   "speed-runner"};
   EXPECT_EQ(list_hands(kHands), names);
   for (const std::string& name : names) EXPECT_EQ(load_hand_script(kHands / (name + ".toml")).name, name);
   EXPECT_EQ(load_hand_script(kHands / "idle.toml").kind, HandKind::kIdle);

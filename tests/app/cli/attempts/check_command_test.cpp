@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "app/cli/attempts/sweep_command.h"
 #include "app/cli/machine/doctor_command.h"
+#include "app/cli/sweep/sweep_command.h"
 #include "haptics/input_error.h"
 #include "tests/app/cli/command_samples.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -182,36 +182,36 @@ TEST(Doctor, TheRoomIsThatOfTheNearestFolderThatExists) {
 using Seeds = std::pair<std::int64_t, std::int64_t>;
 
 TEST(ParseSeeds, ARangeOrOne) {
-  EXPECT_EQ(parse_seeds("1..10"), Seeds(1, 10));
-  EXPECT_EQ(parse_seeds("7"), Seeds(7, 7));
-  EXPECT_EQ(parse_seeds("4..4"), Seeds(4, 4));
-  EXPECT_EQ(parse_seeds("-5..-2"), Seeds(-5, -2));
-  EXPECT_EQ(parse_seeds("1..10000"), Seeds(1, 10000)) << "the most there may be";
+  EXPECT_EQ(parse_range("--seeds", "1..10"), Seeds(1, 10));
+  EXPECT_EQ(parse_range("--seeds", "7"), Seeds(7, 7));
+  EXPECT_EQ(parse_range("--seeds", "4..4"), Seeds(4, 4));
+  EXPECT_EQ(parse_range("--seeds", "-5..-2"), Seeds(-5, -2));
+  EXPECT_EQ(parse_range("--seeds", "1..10000"), Seeds(1, 10000)) << "the most there may be";
 }
 
 TEST(ParseSeeds, RefusesWhatIsNoRangeNamingIt) {
   for (const char* bad : {"", "x", "1..", "..4", "..", "1...3", "1..3..5", " 1", "1 ..3", "1.5", "+1", "1-3",
                           "9223372036854775808", "1..1e3"}) {
-    EXPECT_EQ(message_of<InputError>([&] { parse_seeds(bad); }),
+    EXPECT_EQ(message_of<InputError>([&] { parse_range("--seeds", bad); }),
               "--seeds " + std::string(bad) + ": A..B, two whole numbers");
   }
   for (const char* bad : {"5..1", "1..10001", "-1..-2", "-5000..5000"}) {
-    EXPECT_CONTAINS(message_of<InputError>([&] { parse_seeds(bad); }), "A <= B, at most 10000 of them");
+    EXPECT_CONTAINS(message_of<InputError>([&] { parse_range("--seeds", bad); }), "A <= B, at most 10000 of them");
   }
 }
 
 TEST(SweepCommand, RefusesNoHandAnUnknownHandAndAnUnknownLevelBeforeItRuns) {
   const TemporaryFolder folder;
   SweepOptions options;
-  options.exercises = {folder.write("small.toml", small_exercise()).string()};
+  options.plan.exercises = {folder.write("small.toml", small_exercise()).string()};
   std::ostringstream out, err;
   const auto refusal = [&] { return message_of<InputError>([&] { sweep_command(options, out, err); }); };
-  options.hands = {};
+  options.plan.hands = {};
   EXPECT_CONTAINS(refusal(), "name at least one hand");
-  options.hands = {"idle", "octopus"};
+  options.plan.hands = {"idle", "octopus"};
   EXPECT_CONTAINS(refusal(), "octopus");
-  options.hands = {"idle"};
-  options.levels = {"L2"};
+  options.plan.hands = {"idle"};
+  options.plan.levels = {"L2"};
   EXPECT_CONTAINS(refusal(), "L2");
   EXPECT_EQ(out.str() + err.str(), "");
 }
@@ -219,9 +219,9 @@ TEST(SweepCommand, RefusesNoHandAnUnknownHandAndAnUnknownLevelBeforeItRuns) {
 TEST(SweepCommand, TheTableCountsEveryAttemptOfEveryLevel) {
   const TemporaryFolder folder;
   SweepOptions options;
-  options.exercises = {folder.write("small.toml", small_exercise()).string()};
-  options.hands = {"expert"};
-  options.seeds = "3..4";
+  options.plan.exercises = {folder.write("small.toml", small_exercise()).string()};
+  options.plan.hands = {"expert"};
+  options.plan.seeds = "3..4";
   options.jobs = 2;
   std::ostringstream out, err;
   const int code = sweep_command(options, out, err);

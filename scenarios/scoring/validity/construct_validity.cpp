@@ -1,4 +1,4 @@
-#include "scenarios/scoring/construct_validity.h"
+#include "scenarios/scoring/validity/construct_validity.h"
 
 #include <algorithm>
 #include <cmath>

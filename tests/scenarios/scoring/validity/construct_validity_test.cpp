@@ -1,5 +1,5 @@
 // The statistics that say whether a score tells skill apart, against hand-computed groups, and scorers known to be bad.
-#include "scenarios/scoring/construct_validity.h"
+#include "scenarios/scoring/validity/construct_validity.h"
 
 #include <gtest/gtest.h>
 

@@ -43,6 +43,11 @@ struct ValidityBars {
   double novice_pass_share = 0.10;  ///< at most, from the second level on
   double clumsy_mean = 50, clumsy_pass_share = 0.02, speed_runner_mean = 40;
   double expert_full_marks_share = 0.05;  ///< at most: a ceiling hides who is better
+  double expert_best_time_share = 0.05;   ///< at most, of the sub-scores that are times
+  double critical_score = 49,
+         unfinished_score = 49;  ///< at most, with a critical event; times the share of objects done
+  double left_out_share = 0.85;  ///< of expert, intermediate and novice, guessed by their sub-scores
+  double skill_correlation = 0.7, retest_icc = 0.72;  ///< of a drawn population
 };
 
 /// One statement and whether it holds.
