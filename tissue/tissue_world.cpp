@@ -89,6 +89,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
   if (rigid_) rigid_->take(tool);
   if (rigid_) rigid_->step(jaws, present, dt_s);
   if (rigid_) patch.held = rigid_->held();
+  if (rigid_) patch.hold = rigid_->hold();
   if (soft_) step_soft(newest, tool, present);
   if (present && extraction_) extraction_->extract(state.X_TI, tool.shape, patch, state.jaw_opening_m);
   if (soft_) {

@@ -5,6 +5,7 @@
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
+#include "scenarios/kinds/pegs/pegs_kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
 #include "scenarios/kinds/retract/retract_kind.h"
 #include "scenarios/kinds/touch/touch_kind.h"
@@ -13,8 +14,8 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(),   grasp_kind(),  camera_kind(),
-                                                  wire_kind(),  retract_kind(), palpate_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(),   grasp_kind(),   camera_kind(),
+                                                  wire_kind(),  retract_kind(), palpate_kind(), pegs_kind()};
   return kinds;
 }
 

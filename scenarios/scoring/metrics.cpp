@@ -171,12 +171,21 @@ constexpr MetricDefinition kCatalogue[] = {
     {"localisation_error_m", "m", "distance of a right mark from its nodule along the surface, mean over them",
      "mean of NODULE_FOUND", kLess},
     {"searched_share", "1", "share of the region that was pressed", "value of SEARCH_ENDED", kMore},
+    {"bumps", "1", "times that a ring came down on a peg too far from its middle", "count of BUMP", kLess, kErrors},
+    {"grip_marks", "1", "times that a carried ring was held so tightly that it was marked", "count of GRIP_EXCESS",
+     kLess, kErrors},
+    {"transfer_errors", "1", "rings that fell, and half of the bumps against pegs", "count of DROP + count of BUMP / 2",
+     kLess, kErrors},
+    {"time_left_less_lost_s", "s",
+     "time left once all rings are moved, less 100 s when all were lost; not an FLS score",
+     "max(0, limit - time - 100 lost / rings)", kMore, kTime},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
-constexpr std::string_view kForceShares[] = {"soft_force_share",         "in_band_share", "object_in_band_share",
-                                             "grip_in_band_share",       "excess_events", "grip_window_share",
-                                             "object_grip_window_share", "crushed",       "hard_force_share"};
+constexpr std::string_view kForceShares[] = {
+    "soft_force_share", "in_band_share",     "object_in_band_share",     "grip_in_band_share",
+    "excess_events",    "grip_window_share", "object_grip_window_share", "crushed",
+    "hard_force_share", "grip_marks"};
 
 }  // namespace
 
@@ -262,6 +271,8 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_camera_metrics(graded, graded_events, context, metrics);
   add_wire_metrics(graded, graded_events, context, metrics);
   add_palpate_metrics(graded_events, context, metrics);
+  add_pegs_metrics(graded_events, context,
+                   window ? std::optional<double>(window->second - window->first) : std::nullopt, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -62,6 +62,9 @@ void add_camera_metrics(const Trace& trace, const std::vector<Event>& events, co
 void add_wire_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                       MetricSink& sink);
 void add_palpate_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
+/// @param events of the graded window. @param time_s its length; nothing: there is none
+void add_pegs_metrics(const std::vector<Event>& events, const ScoringContext& context, std::optional<double> time_s,
+                      MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

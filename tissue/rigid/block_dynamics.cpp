@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tissue/rigid/body_contact.h"
+
 namespace trocar {
 namespace {
 
@@ -50,9 +52,26 @@ void BlockDynamics::collect(std::vector<RigidBody>& bodies, const std::vector<Pu
     for (int j = i + 1; j < count; ++j) collect_pair(bodies, i, j, dt_s);
     const RigidBody& body = bodies[static_cast<std::size_t>(i)];
     if (!body.moves()) continue;
-    const RigidContacts floor = box_plane(body.shape(), settings_.floor_z_m + kSlop);
+    collect_pegs(body, i);
+    const RigidContacts floor = body_plane(body, settings_.floor_z_m + kSlop);
     for (int c = 0; c < floor.count; ++c) {
       Joint joint{i, -1, floor.at[static_cast<std::size_t>(c)]};
+      joint.friction = settings_.friction;
+      joint.most = std::numeric_limits<double>::infinity();
+      joints_.push_back(joint);
+    }
+  }
+}
+
+void BlockDynamics::collect_pegs(const RigidBody& body, int index) {
+  const double reach = body.half.norm() + body.half.x();
+  for (const PegPost& peg : settings_.pegs) {
+    if ((peg.foot_T - body.X_TB.p).head<2>().norm() > reach) continue;
+    const RigidContacts touch = capsule_body(capsule_of(peg), body);
+    for (int c = 0; c < touch.count; ++c) {
+      Joint joint{index, -1, touch.at[static_cast<std::size_t>(c)]};
+      joint.contact.normal_T = -joint.contact.normal_T;  // from the peg to the body
+      joint.friction = settings_.peg_friction;
       joint.most = std::numeric_limits<double>::infinity();
       joints_.push_back(joint);
     }
@@ -67,12 +86,13 @@ void BlockDynamics::collect_pushes(RigidBody& body, int index, const std::vector
       return point - ahead_s * (pusher.velocity_T + pusher.spin_T.cross(point - pusher.about_T));
     };
     const CapsuleShape shape{back(pusher.shape.from_T), back(pusher.shape.to_T), pusher.shape.radius_m};
-    RigidContacts touch = capsule_box(shape, body.shape());
+    RigidContacts touch = capsule_body(shape, body);
     if (touch.count == 0) continue;
     body.wake();
     RigidContact& contact = touch.at[0];
     contact.normal_T = -contact.normal_T;  // from the pusher to the block
     Joint joint{index, -1, contact};
+    joint.friction = settings_.friction;
     joint.other_T = pusher.velocity_T + pusher.spin_T.cross(contact.point_T - pusher.about_T);
     joint.most = settings_.push_stiffness_n_per_m * contact.depth_m * dt_s;
     joints_.push_back(joint);
@@ -83,10 +103,10 @@ void BlockDynamics::collect_pair(std::vector<RigidBody>& bodies, int a, int b, d
   RigidBody &first = bodies[static_cast<std::size_t>(a)], &second = bodies[static_cast<std::size_t>(b)];
   const bool still = !first.moves() && !second.moves();
   if (still && !first.carried && !second.carried) return;
-  const Vec3 skin = Vec3::Constant(kSlop / 2);  // keeps resting contacts, as the slop of the floor does
-  const RigidContacts touch = box_box({first.X_TB, first.half + skin}, {second.X_TB, second.half + skin});
+  const RigidContacts touch = body_body(first, second, kSlop);  // keeps resting contacts, as the slop of the floor does
   for (int c = 0; c < touch.count; ++c) {
     Joint joint{a, b, touch.at[static_cast<std::size_t>(c)]};
+    joint.friction = settings_.friction;
     joint.most = std::numeric_limits<double>::infinity();
     const bool kinematic = first.carried || second.carried;
     if (kinematic) joint.most = settings_.push_stiffness_n_per_m * joint.contact.depth_m * dt_s;
@@ -132,7 +152,7 @@ void BlockDynamics::solve(std::vector<RigidBody>& bodies, Joint& joint, double d
   if (speed < 1e-9) return;
   const Vec3 direction = sliding / speed;
   Vec3 rubbed = joint.rubbed - direction * (speed / yielding(direction));
-  const double limit = settings_.friction * joint.pushed;
+  const double limit = joint.friction * joint.pushed;
   if (rubbed.norm() > limit) rubbed *= limit / rubbed.norm();
   apply(rubbed - joint.rubbed);
   joint.rubbed = rubbed;

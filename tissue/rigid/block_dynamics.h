@@ -1,4 +1,5 @@
-// Free blocks on a board: they fall, land without bouncing, tip over, are pushed by the instrument and come to rest.
+// Free blocks or rings on a board with pegs: they fall, land without bouncing, tip over, hang on pegs, are pushed by
+// the instrument and come to rest.
 //
 // Sequential impulses (Catto, Iterative dynamics with temporal coherence, GDC 2005) on the contact points of a
 // sub-step, Coulomb friction by a clamped tangential impulse, overlap removed at a limited speed. The instrument and a
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "tissue/rigid/rigid_body.h"
+#include "tissue/rigid/rigid_scene.h"
 
 namespace trocar {
 
@@ -21,8 +23,9 @@ struct Pusher {
 
 struct BlockDynamicsSettings {
   double floor_z_m = 0;  ///< height of the board and of the table round it
-  double friction = 0.6;
+  double friction = 0.6, peg_friction = 0.2;
   double push_stiffness_n_per_m = 300;  ///< of a block against what pushes it
+  std::vector<PegPost> pegs;
 };
 
 class BlockDynamics {
@@ -37,11 +40,13 @@ class BlockDynamics {
     int a = -1, b = -1;  ///< bodies; b < 0: the floor or a pusher
     RigidContact contact;
     Vec3 other_T = Vec3::Zero();  ///< velocity of what is not a body
+    double friction = 0;
     double most = 0, pushed = 0;  ///< limit and sum of the normal impulse, N s
     Vec3 rubbed = Vec3::Zero();   ///< sum of the tangential impulse
   };
   void collect(std::vector<RigidBody>& bodies, const std::vector<Pusher>& pushers, double ahead_s, double dt_s);
   void collect_pushes(RigidBody& body, int index, const std::vector<Pusher>& pushers, double ahead_s, double dt_s);
+  void collect_pegs(const RigidBody& body, int index);
   void collect_pair(std::vector<RigidBody>& bodies, int a, int b, double dt_s);
   void solve(std::vector<RigidBody>& bodies, Joint& joint, double dt_s) const;
   void settle(RigidBody& body, int index, double dt_s) const;

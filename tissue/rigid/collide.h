@@ -1,9 +1,10 @@
-// Contact points between rigid primitives: boxes, capsules, cylinders, the plane of the board.
+// Contact points between rigid primitives: boxes, capsules, cylinders, triangular rings, the plane of the board.
 //
-// Box against box, capsule against box and box against cylinder by FCL (kept in the source); against a horizontal
-// plane in closed form, because FCL gives one point where a resting box needs four. A capsule is asked for the distance
-// of its axis (as a thread of 0.1 mm), so overlaps up to its radius are exact to 3 um; FCL's own depth of a capsule is
-// not. Frame T, m. Thread: tissue task; FCL allocates.
+// What meets a ring is in closed form: signed distance of points of an axis from a prism with a round hole, exact
+// outside. Box against box, capsule against box and box against cylinder by FCL (kept in the source); against a
+// horizontal plane in closed form, because FCL gives one point where a resting box needs four. A capsule is asked for
+// the distance of its axis (as a thread of 0.1 mm), so overlaps up to its radius are exact to 3 um; FCL's own depth of
+// a capsule is not. Frame T, m. Thread: tissue task; FCL allocates.
 #pragma once
 
 #include <array>
@@ -32,6 +33,17 @@ struct CylinderShape {
   double radius_m = 0, length_m = 0;
 };
 
+/// A prism over an equilateral triangle with a round hole along its axis (B's z through the triangle's middle, one side
+/// towards B's -y): the ring of a peg transfer.
+struct RingShape {
+  Pose X_TB;
+  double side_distance_m = 0;  ///< of the triangle's sides from the axis; its corners are twice as far
+  double half_height_m = 0, hole_radius_m = 0;
+
+  /// The three lower corners, then the three upper ones, counter-clockwise from above.
+  Vec3 corner(int index) const;
+};
+
 /// Where two things overlap. The normal points from the second to the first.
 struct RigidContact {
   Vec3 point_T = Vec3::Zero(), normal_T = Vec3::UnitZ();
@@ -56,6 +68,13 @@ RigidContacts box_plane(const BoxShape& box, double height_m);
 RigidContacts capsule_plane(const CapsuleShape& capsule, double height_m);
 /// Box first, solid cylinder second.
 RigidContacts box_cylinder(const BoxShape& box, const CylinderShape& cylinder);
+
+/// Capsule first. At most one point in each half of the ring's height.
+RigidContacts capsule_ring(const CapsuleShape& capsule, const RingShape& ring);
+/// Where edges of one are in the other. @param skin_m distance that still counts as touching.
+RigidContacts ring_ring(const RingShape& a, const RingShape& b, double skin_m);
+/// Ring first, as box_plane().
+RigidContacts ring_plane(const RingShape& ring, double height_m);
 
 /// Distance of the capsule's axis from the box; 0 or less when it enters the box.
 double axis_distance(const CapsuleShape& capsule, const BoxShape& box);

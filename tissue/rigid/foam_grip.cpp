@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tissue/rigid/body_contact.h"
+
 namespace trocar {
 namespace {
 
@@ -15,6 +17,7 @@ constexpr double kSquare = 0.82;       // least cosine between the pads' normal 
 constexpr double kSlipSpeed = 0.040;   // m/s of a block that is not squeezed at all [D]
 constexpr double kPadFriction = 0.83;  // profiled jaws (pull held per pinch, tissue notes section 3)
 constexpr int kTurnSteps = 24;         // thirds of the angle: to a thousandth of a degree
+constexpr double kMet = 1e-5;          // m that a held ring is kept from where the jaws would have it
 constexpr double kSupport = 1e-4;      // m above what carries it
 
 /// The block's own axis across the pads.
@@ -26,10 +29,11 @@ int pinched_axis(const RigidBody& body, const Mat3& R_TI) {
 
 double thickness(const RigidBody& body, const Mat3& R_TI) { return 2 * body.half[pinched_axis(body, R_TI)]; }
 
-double lowest(const RigidBody& body) {
-  double z = body.shape().corner(0).z();
-  for (int i = 1; i < 8; ++i) z = std::min(z, body.shape().corner(i).z());
-  return z;
+/// Of the pads' normal with that of the sides between them.
+double squareness(const RigidBody& body, const Mat3& R_TI) {
+  const Vec3 across = body.X_TB.R.transpose() * R_TI.col(1);
+  if (body.is_ring()) return std::max(std::abs(across.z()), across.head<2>().norm());
+  return across.cwiseAbs().maxCoeff();
 }
 
 /// Turn of a block about its middle that would lay its lowest side flat.
@@ -74,7 +78,7 @@ bool in_reach(const Vec3& middle_I) {
 bool carried_by_other(const std::vector<RigidBody>& bodies, std::size_t index) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i == index) continue;
-    const RigidContacts touch = box_box(bodies[index].shape(), bodies[i].shape());
+    const RigidContacts touch = body_body(bodies[index], bodies[i], 0);
     for (int c = 0; c < touch.count; ++c) {
       if (touch.at[static_cast<std::size_t>(c)].normal_T.z() > 0.5) return true;
     }
@@ -91,11 +95,10 @@ void FoamGrip::look_for_block(const JawReading& jaws, const std::vector<RigidBod
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Vec3 middle = jaws.X_TI.inverse() * bodies[i].X_TB.p;
     const double h = thickness(bodies[i], jaws.X_TI.R);
-    const Vec3 across = bodies[i].X_TB.R.col(pinched_axis(bodies[i], jaws.X_TI.R));
     const bool known = static_cast<int>(i) == before;
     const double aside = known ? h / 2 : std::max(0.0, jaws.opening_m - h) / 2 + kAside;
     const bool open = known || jaws.opening_m > h - kAside;
-    const bool square = std::abs(across.dot(jaws.X_TI.R.col(1))) >= kSquare;
+    const bool square = squareness(bodies[i], jaws.X_TI.R) >= kSquare;
     if (!open || !square || !in_reach(middle) || std::abs(middle.y()) > aside || middle.norm() >= nearest) continue;
     nearest = middle.norm();
     object_ = static_cast<int>(i);
@@ -104,14 +107,14 @@ void FoamGrip::look_for_block(const JawReading& jaws, const std::vector<RigidBod
 }
 
 /// The pads push a block that stands nearer to one of them, until both touch it.
-void FoamGrip::centre(const JawReading& jaws, RigidBody& body) const {
+void FoamGrip::centre(const JawReading& jaws, const std::vector<PegPost>& pegs, RigidBody& body) const {
   const Vec3 across = jaws.X_TI.R.col(1);
   const double offset = across.dot(body.X_TB.p - jaws.X_TI.p);
   const double room = std::max(0.0, jaws.opening_m - thickness(body, jaws.X_TI.R)) / 2;
   const double excess = offset - std::clamp(offset, -room, room);
   const Vec3 level(across.x(), across.y(), 0);
   if (excess == 0 || level.norm() < 0.5) return;
-  body.X_TB.p -= level * (excess / level.dot(across));
+  carry_past(pegs, body.X_TB.p - level * (excess / level.dot(across)), body);
   body.wake();
 }
 
@@ -141,10 +144,11 @@ void FoamGrip::squeeze(const JawReading& jaws, RigidBody& body, Foam& foam) cons
   body.half[pinched_axis(body, jaws.X_TI.R)] *= foam.spec.crushed_thickness;
 }
 
-void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double floor_z_m, double dt_s,
-                     std::vector<RigidBody>& bodies, const Foam& foam) {
+void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double floor_z_m,
+                     const std::vector<PegPost>& pegs, double dt_s, std::vector<RigidBody>& bodies, const Foam& foam) {
   const auto index = static_cast<std::size_t>(object_);
   RigidBody& body = bodies[index];
+  const Vec3 seen = body.X_TB.p;
   body.X_TB = jaws.X_TI * X_IO_;
   body.velocity_T = jaws.V_TI_T.linear + jaws.V_TI_T.angular.cross(body.X_TB.p - jaws.X_TI.p);
   body.spin_T = jaws.V_TI_T.angular;
@@ -168,24 +172,35 @@ void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double 
     slipped_m_ += way;
   }
   state_ = light ? GripState::kSlipping : GripState::kHolding;
-  X_IO_ = jaws.X_TI.inverse() * Pose{R_held, body.X_TB.p};
+  const Vec3 wanted = body.X_TB.p;
   body.X_TB.p.z() += sunk;  // shown, and met by others, on the board and not in it
+  Vec3 through = Vec3::Zero();
+  if (!pegs.empty()) {
+    const Vec3 free = body.X_TB.p;
+    body.X_TB.p = seen;
+    carry_past(pegs, free, body);
+    const Vec3 off = body.X_TB.p - free;
+    if (off.norm() > most) through = off * (1 - most / off.norm());
+  }
+  X_IO_ = jaws.X_TI.inverse() * Pose{R_held, wanted + through};
+  met_ = (body.X_TB.p - wanted).norm() > kMet;
 }
 
-void FoamGrip::update(const JawReading& jaws, const RigidMaterial& board, double floor_z_m, double dt_s,
-                      std::vector<RigidBody>& bodies, std::vector<Foam>& foams) {
+void FoamGrip::update(const JawReading& jaws, const RigidMaterial& board, double floor_z_m,
+                      const std::vector<PegPost>& pegs, double dt_s, std::vector<RigidBody>& bodies,
+                      std::vector<Foam>& foams) {
   const bool holding = state_ == GripState::kHolding || state_ == GripState::kSlipping;
   if (!holding) {
     look_for_block(jaws, bodies);
     if (object_ < 0) return;
-    centre(jaws, bodies[static_cast<std::size_t>(object_)]);
+    centre(jaws, pegs, bodies[static_cast<std::size_t>(object_)]);
     if (jaws.grip_n >= kHoldFrom) grasp(jaws, bodies);
   }
   if (state_ != GripState::kHolding && state_ != GripState::kSlipping) return;
   const auto index = static_cast<std::size_t>(object_);
   squeeze(jaws, bodies[index], foams[index]);
   if (jaws.grip_n < kHoldUntil) return let_go(jaws.V_TI_T, jaws.X_TI.p, bodies);
-  carry(jaws, board, floor_z_m, dt_s, bodies, foams[index]);
+  carry(jaws, board, floor_z_m, pegs, dt_s, bodies, foams[index]);
   if (!in_reach(X_IO_.p)) {
     let_go(jaws.V_TI_T, jaws.X_TI.p, bodies);
     object_ = -1;
@@ -208,12 +223,20 @@ GripBlock FoamGrip::block(const std::vector<RigidBody>& bodies, const std::vecto
 
 HeldObject FoamGrip::held(const std::vector<RigidBody>& bodies) const {
   if (state_ != GripState::kHolding && state_ != GripState::kSlipping) return {};
+  if (bodies[static_cast<std::size_t>(object_)].is_ring()) return {};
   const Vec3 half = bodies[static_cast<std::size_t>(object_)].half;
   Eigen::Index along = 0;
   half.maxCoeff(&along);
   const double radius = std::min(half[(along + 1) % 3], half[(along + 2) % 3]);
   const Vec3 reach = X_IO_.R.col(along) * (half[along] - radius);
   return {X_IO_.p + reach, X_IO_.p - reach, radius};
+}
+
+GripHold FoamGrip::hold(const std::vector<RigidBody>& bodies, double stiffness_n_per_m) const {
+  if (state_ != GripState::kHolding && state_ != GripState::kSlipping) return {};
+  const RigidBody& body = bodies[static_cast<std::size_t>(object_)];
+  if (!body.is_ring() || !met_) return {};
+  return {X_IO_.p, body.X_TB.p, stiffness_n_per_m};
 }
 
 }  // namespace trocar

@@ -1,4 +1,5 @@
-// The rigid things of an exercise as they are laid out before it starts: board, foam blocks, ring marks, port.
+// The rigid things of an exercise as they are laid out before it starts: board, blocks or rings, pegs, ring marks,
+// port.
 //
 // Frame T, SI units. The table under the board is level with it: a block that leaves the board lies on the table.
 // Thread: plain values, fixed after loading.
@@ -28,9 +29,11 @@ struct BoardPlate {
   RigidMaterial material;
 };
 
-/// A foam block: a box that springs between the jaws, slips when held too lightly and is crushed when held too hard.
+/// A foam block: a box that springs between the jaws, slips when held too lightly and is crushed when held too hard; or
+/// a triangular ring (collide.h: RingShape), of which the jaws feel the same.
 struct FoamBlock {
-  Vec3 size_m = Vec3::Zero();  ///< extents along its own axes
+  Vec3 size_m = Vec3::Zero();  ///< extents along its own axes; ring: twice the height of its triangle, then its own
+  double hole_radius_m = 0;    ///< of a ring; 0: a box
   double mass_kg = 0;
   double stiffness_n_per_m = 0;     ///< between the jaws, force per compression
   double slip_below_n = 0;          ///< a lighter grip does not hold its weight
@@ -40,6 +43,12 @@ struct FoamBlock {
   std::int32_t kind = 0;            ///< which foam
   std::int32_t colour = 0;          ///< index of the colour that is shown; equal for all where colour is no cue
   Pose X_TO;                        ///< at the start: z up, resting on the board
+};
+
+/// A round peg that stands on the board.
+struct PegPost {
+  Vec3 foot_T = Vec3::Zero();
+  double radius_m = 0, height_m = 0;
 };
 
 /// A ring printed on the board: where a block shall stand. It is felt no more than the board is.
@@ -60,6 +69,7 @@ struct RigidScene {
   std::optional<BoardPlate> board;
   std::vector<FoamBlock> blocks;
   std::vector<RingMark> rings;
+  std::vector<PegPost> pegs;
   std::optional<PortTube> port;
   bool empty() const { return !board && blocks.empty(); }
 };

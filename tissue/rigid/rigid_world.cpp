@@ -4,6 +4,7 @@
 #include <string>
 
 #include "haptics/input_error.h"
+#include "tissue/rigid/body_contact.h"
 
 namespace trocar {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 constexpr double kTableHalf = 0.25;  // m, of the table under the board
 constexpr double kTouchSkin = 1e-4;  // m between two blocks that still counts as touching
 constexpr int kBoxTriangles = 12;
-constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16;
+constexpr std::int32_t kFirstBlockId = kFirstRigidId + 16, kFirstPegId = kFirstRigidId + 4096;
+constexpr int kPegSides = 6, kPegTriangles = 3 * kPegSides;
 
 constexpr std::array<std::array<int, 3>, 2> kBoardFaces{{{0, 1, 2}, {0, 2, 3}}};
 /// Corners of BoxShape::corner(), counter-clockwise from outside.
@@ -28,12 +30,38 @@ constexpr std::array<std::array<int, 3>, kBoxTriangles> kBoxFaces{{{0, 2, 1},
                                                                    {1, 3, 5},
                                                                    {3, 7, 5}}};
 
+/// Corners of RingShape::corner(), counter-clockwise from outside; the hole is not felt.
+constexpr std::array<std::array<int, 3>, 8> kRingFaces{
+    {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}}};
+
+/// A peg as a prism with a flat end, as thick as it is in the mean.
+void add_peg(const PegPost& peg, std::int32_t first_id, ContactPatch& patch) {
+  std::array<Vec3, 2 * kPegSides + 1> corners;
+  std::array<std::array<int, 3>, kPegTriangles> faces;
+  const Vec3 top = peg.foot_T + Vec3(0, 0, peg.height_m);
+  const double radius = peg.radius_m * 2 / (1 + std::cos(M_PI / kPegSides));
+  corners[2 * kPegSides] = top;
+  for (int k = 0; k < kPegSides; ++k) {
+    const double angle = 2 * M_PI * k / kPegSides;
+    const Vec3 off(radius * std::cos(angle), radius * std::sin(angle), 0);
+    const auto low = static_cast<std::size_t>(k);
+    const int next = (k + 1) % kPegSides;
+    corners[low] = peg.foot_T + off;
+    corners[low + kPegSides] = top + off;
+    faces[3 * low] = {k, next, next + kPegSides};
+    faces[3 * low + 1] = {k, next + kPegSides, k + kPegSides};
+    faces[3 * low + 2] = {k + kPegSides, next + kPegSides, 2 * kPegSides};
+  }
+  add_surface(patch, corners, faces, first_id, kBoardMaterial);
+}
+
 BlockDynamicsSettings dynamics_of(const RigidScene& scene) {
   BlockDynamicsSettings settings;
   if (scene.board) {
     settings.floor_z_m = scene.board->top_z_m;
     settings.friction = scene.board->material.friction;
   }
+  settings.pegs = scene.pegs;
   return settings;
 }
 
@@ -60,6 +88,7 @@ RigidWorld::RigidWorld(const RigidScene& scene, const Tool& tool)
                        " kinds of foam");
     RigidBody body;
     body.half = block.size_m / 2;
+    body.hole_radius_m = block.hole_radius_m;
     body.mass_kg = block.mass_kg;
     body.X_TB = block.X_TO;
     body.wake();  // it settles by itself
@@ -70,7 +99,7 @@ RigidWorld::RigidWorld(const RigidScene& scene, const Tool& tool)
 
 void RigidWorld::step(const JawReading& jaws, bool present, double dt_s) {
   if (present && tool_.kind == InstrumentKind::kGrasper) {
-    grip_.update(jaws, board_, floor_z_m_, dt_s, bodies_, foams_);
+    grip_.update(jaws, board_, floor_z_m_, scene_.pegs, dt_s, bodies_, foams_);
   } else {
     grip_.reset(bodies_);
   }
@@ -93,14 +122,15 @@ std::vector<Pusher> RigidWorld::pushers(const JawReading& jaws) const {
   return out;
 }
 
-bool RigidWorld::near_tool(const JawReading& jaws, const RigidBody& body) const {
+bool RigidWorld::near_tool(const JawReading& jaws, const Vec3& from_T, const Vec3& to_T, double reach_m) const {
   const ToolCapsules tool = tool_capsules(tool_.shape, jaws.opening_m, grip_.held(bodies_));
   for (int c = 0; c < tool.count; ++c) {
     const CapsuleShape shape = in_theatre(jaws.X_TI, tool.at[static_cast<std::size_t>(c)]);
     const Vec3 way = shape.to_T - shape.from_T;
-    const double share =
-        std::clamp((body.X_TB.p - shape.from_T).dot(way) / std::max(1e-12, way.squaredNorm()), 0.0, 1.0);
-    if ((shape.from_T + share * way - body.X_TB.p).norm() < kPatchRadius + body.half.norm()) return true;
+    for (const Vec3& point : {from_T, to_T}) {
+      const double share = std::clamp((point - shape.from_T).dot(way) / std::max(1e-12, way.squaredNorm()), 0.0, 1.0);
+      if ((shape.from_T + share * way - point).norm() < kPatchRadius + reach_m) return true;
+    }
   }
   return false;
 }
@@ -114,15 +144,27 @@ void RigidWorld::add_to(const JawReading& jaws, ContactPatch& patch) const {
         Vec3(kTableHalf, kTableHalf, floor_z_m_), Vec3(-kTableHalf, kTableHalf, floor_z_m_)};
     add_surface(patch, corners, kBoardFaces, kFirstRigidId, kBoardMaterial);
   }
+  for (std::size_t i = 0; i < scene_.pegs.size(); ++i) {
+    const PegPost& peg = scene_.pegs[i];
+    if (near_tool(jaws, peg.foot_T, peg.foot_T + Vec3(0, 0, peg.height_m), peg.radius_m))
+      add_peg(peg, kFirstPegId + static_cast<std::int32_t>(i) * kPegTriangles, patch);
+  }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const std::int32_t material = kFirstFoamMaterial + foams_[i].spec.kind;
     patch.material[static_cast<std::size_t>(material)] = {foams_[i].spec.stiffness_n_per_m, board_.damping_s_per_m,
                                                           board_.tool_mu_static, board_.tool_mu_dynamic};
-    if (static_cast<int>(i) == grip_.object() || !near_tool(jaws, bodies_[i])) continue;
-    const BoxShape box = bodies_[i].shape();
+    if (static_cast<int>(i) == grip_.object() ||
+        !near_tool(jaws, bodies_[i].X_TB.p, bodies_[i].X_TB.p, bodies_[i].half.norm()))
+      continue;
+    const std::int32_t first_id = kFirstBlockId + static_cast<std::int32_t>(i) * kBoxTriangles;
     std::array<Vec3, 8> corners;
-    for (int c = 0; c < 8; ++c) corners[static_cast<std::size_t>(c)] = box.corner(c);
-    add_surface(patch, corners, kBoxFaces, kFirstBlockId + static_cast<std::int32_t>(i) * kBoxTriangles, material);
+    if (bodies_[i].is_ring()) {
+      for (int c = 0; c < 6; ++c) corners[static_cast<std::size_t>(c)] = bodies_[i].ring().corner(c);
+      add_surface(patch, std::span(corners).first(6), kRingFaces, first_id, material);
+      continue;
+    }
+    for (int c = 0; c < 8; ++c) corners[static_cast<std::size_t>(c)] = bodies_[i].shape().corner(c);
+    add_surface(patch, corners, kBoxFaces, first_id, material);
   }
   patch.grip = grip_.block(bodies_, foams_, jaws.X_TI);
 }
@@ -145,8 +187,7 @@ void RigidWorld::list_tool_pairs(const JawReading& jaws) {
     if (scene_.board) add_pair(party, kPartyBoard, capsule_plane(shape, floor_z_m_), board_.stiffness_n_per_m);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (static_cast<int>(i) == grip_.object()) continue;
-      add_pair(party, static_cast<std::int32_t>(i), capsule_box(shape, bodies_[i].shape()),
-               foams_[i].stiffness_n_per_m);
+      add_pair(party, static_cast<std::int32_t>(i), capsule_body(shape, bodies_[i]), foams_[i].stiffness_n_per_m);
     }
   }
 }
@@ -162,8 +203,11 @@ void RigidWorld::list_block_pairs() {
       add_pair(a, kPartyPort, box_cylinder(box, {port.centre_T, port.axis_T, port.radius_m, port.length_m}), 0);
     }
     const BoxShape skinned{box.X_TB, box.half + Vec3::Constant(kTouchSkin)};
-    for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      add_pair(a, static_cast<std::int32_t>(j), box_box(skinned, bodies_[j].shape()), 0);
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+      const bool rings = bodies_[i].is_ring();
+      add_pair(a, static_cast<std::int32_t>(j),
+               rings ? body_body(bodies_[i], bodies_[j], kTouchSkin) : box_box(skinned, bodies_[j].shape()), 0);
+    }
   }
 }
 

@@ -1,9 +1,10 @@
-// The rigid side of a scene: board, foam blocks and port, what the jaws do to the blocks, and what of them can be felt.
+// The rigid side of a scene: board, pegs, foam blocks or rings, and port, what the jaws do to the blocks, and what of
+// them can be felt.
 //
 // One step: jaws grip (foam_grip.h), free blocks move (block_dynamics.h), pairs are listed. The board is felt through
 // two large triangles of its own material, every block near the tool through its twelve; the block between the jaws is
-// felt by the pinch instead, and once held it touches the rest as a capsule of the tool. Frame T, SI units.
-// Deterministic. Thread: tissue task.
+// felt by the pinch instead, and once held it touches the rest as a capsule of the tool; a ring, whose hole no capsule
+// has, by a spring to where board and pegs keep it. Frame T, SI units. Deterministic. Thread: tissue task.
 #pragma once
 
 #include <vector>
@@ -32,6 +33,8 @@ class RigidWorld {
   void step(const JawReading& jaws, bool present, double dt_s);
   /// What the jaws hold, as a capsule of the tool.
   HeldObject held() const { return grip_.held(bodies_); }
+  /// What keeps a held ring from where the jaws would have it.
+  GripHold hold() const { return grip_.hold(bodies_, board_.stiffness_n_per_m); }
   /// Adds materials, triangles near the tool and grip block. @param patch count and dropped go on from where they are.
   void add_to(const JawReading& jaws, ContactPatch& patch) const;
   /// Fills objects, grip and pairs.
@@ -43,7 +46,8 @@ class RigidWorld {
   void list_tool_pairs(const JawReading& jaws);
   void list_block_pairs();
   void add_pair(std::int32_t a, std::int32_t b, const RigidContacts& contacts, double stiffness_n_per_m);
-  bool near_tool(const JawReading& jaws, const RigidBody& body) const;
+  /// Does what lies within reach_m of these two points belong into the patch?
+  bool near_tool(const JawReading& jaws, const Vec3& from_T, const Vec3& to_T, double reach_m) const;
 
   RigidScene scene_;
   Tool tool_;

@@ -22,6 +22,7 @@ constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's 
 
 const Vec3 kBoardLines(0.44, 0.44, 0.42);
 const Vec3 kNeutralFoam(0.45, 0.43, 0.38);
+const Vec3 kPegColour(0.52, 0.52, 0.54);
 const Vec3 kTitanium(0.62, 0.61, 0.60), kDarkBlood(0.16, 0.004, 0.004);
 const Vec3 kNeedleColour(0.58, 0.58, 0.60), kThreadColour(0.08, 0.14, 0.62);
 constexpr double kThreadWider = 0.00015;  // m
@@ -67,6 +68,16 @@ void add_port(const SessionView& view, std::vector<SceneObject>& out) {
   sleeve.X_TO.R = view.record.stylus.X_TI.R;
   sleeve.X_TO.p = view.scene.loop.map.fulcrum->port_T + kSleeveInside * sleeve.X_TO.R.col(2);
   out.push_back(sleeve);
+}
+
+SceneObject peg_object(const PegPost& peg) {
+  SceneObject out;
+  out.shape = Shape::kCylinder;
+  out.look = Look::kSteel;
+  out.size_m = {2 * peg.radius_m, 0, peg.height_m};
+  out.X_TO.p = peg.foot_T + Vec3(0, 0, peg.height_m / 2);
+  out.colour = kPegColour;
+  return out;
 }
 
 SceneObject block_object(const Pose& X_TO, const Vec3& size, int colour) {
@@ -141,16 +152,18 @@ std::vector<SceneObject> rigid_objects(const RigidScene& rigid, const TissueFram
     if (static_cast<int>(i) == lit_block) ring.style = Style::kLit;
     out.push_back(ring);
   }
+  std::transform(rigid.pegs.begin(), rigid.pegs.end(), std::back_inserter(out), peg_object);
   for (std::size_t i = 0; i < rigid.blocks.size(); ++i) {
     const FoamBlock& laid = rigid.blocks[i];
-    SceneObject block = block_object(laid.X_TO, laid.size_m, laid.colour);
+    const bool ring = laid.hole_radius_m > 0;
+    SceneObject block = ring ? triangle_object(laid) : block_object(laid.X_TO, laid.size_m, laid.colour);
     if (frame && static_cast<int>(i) < frame->object_count) {
       const ObjectState& now = frame->object[i];
       block.X_TO = now.X_TO;
-      block.size_m = now.size_m;
+      if (!ring) block.size_m = now.size_m;
       block.wear = now.crushed ? 1 : 0;
     }
-    if (static_cast<int>(i) == lit_block) block.style = Style::kLit;
+    if (lit_block >= 0 && i == static_cast<std::size_t>(lit_block) % rigid.blocks.size()) block.style = Style::kLit;
     out.push_back(block);
   }
   return out;
@@ -231,7 +244,8 @@ SceneView attempt_scene(const SessionView& view) {
   auto rigid = rigid_objects(view.scene.board.rigid, view.tissue, view.director.status().target_index);
   if (view.tissue && view.tissue->held() && view.tissue->grip_object >= 0) {
     const std::size_t first = rigid.size() - view.scene.board.rigid.blocks.size();  // blocks come last
-    pinch(rigid.at(first + static_cast<std::size_t>(view.tissue->grip_object)), stylus);
+    SceneObject& held = rigid.at(first + static_cast<std::size_t>(view.tissue->grip_object));
+    if (held.shape == Shape::kBox) pinch(held, stylus);
   }
   out.objects.insert(out.objects.end(), rigid.begin(), rigid.end());
   add_start(view, out.objects);

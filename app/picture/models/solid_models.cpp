@@ -87,6 +87,41 @@ PictureMesh build_ring(double outer_diameter, double wire) {
       [](int) { return 0.0F; });
 }
 
+/// Section by section round the hole: rounded a little where faces meet.
+PictureMesh build_triangle(double side, double hole, double height) {
+  constexpr int kRound = 96, kSection = 16;
+  const double inside = side / (2 * std::sqrt(3.0)), in = 0.5 * hole, h = 0.5 * height, e = 0.3 * (inside - in);
+  const auto outer = [&](double turn) {  // to the side that is met there
+    double nearest = -1;
+    for (int k = 0; k < 3; ++k) nearest = std::max(nearest, std::cos(turn + 0.5 * kPi - 2 * kPi * k / 3));
+    return inside / nearest;
+  };
+  return loft(
+      kRound + 1, kSection,
+      [&](int i, int j) {
+        const double turn = 2 * kPi * (i % kRound) / kRound, out = outer(turn), middle = 0.5 * (in + out);
+        const std::array<Eigen::Vector2d, kSection> section = {{{out, 0.9 * h},
+                                                                {out, 0},
+                                                                {out, -0.9 * h},
+                                                                {out, -h + e},
+                                                                {out - e, -h},
+                                                                {middle, -h},
+                                                                {in + 2 * e, -h},
+                                                                {in + e, -h},
+                                                                {in, -h + e},
+                                                                {in, -0.9 * h},
+                                                                {in, 0},
+                                                                {in, h - e},
+                                                                {in + e, h},
+                                                                {middle, h},
+                                                                {out - e, h},
+                                                                {out, h - e}}};
+        const Eigen::Vector2d& at = section[static_cast<std::size_t>(j % kSection)];
+        return Vec3(at.x() * std::cos(turn), at.x() * std::sin(turn), at.y());
+      },
+      [](int) { return 0.0F; });
+}
+
 PictureMesh build_sphere(double diameter) {
   std::vector<ProfilePoint> profile;
   constexpr int kRings = 16;
@@ -197,6 +232,8 @@ PictureMesh build_solid(SceneObject::Shape shape, const Vec3& size_m) {
       return build_cylinder(size_m.x(), size_m.z());
     case SceneObject::Shape::kRing:
       return build_ring(size_m.x(), size_m.z());
+    case SceneObject::Shape::kTriangle:
+      return build_triangle(size_m.x(), size_m.y(), size_m.z());
     case SceneObject::Shape::kPen:
       return build_pen(size_m.x(), size_m.z());
     case SceneObject::Shape::kSphere:

@@ -20,6 +20,7 @@ struct SceneObject {
     kBoard,     ///< slab below z = 0 with printed marks on its upper face; size: edges, thickness
     kSleeve,    ///< port: open tube along z with a slanted end at the origin, head at -length; size: bore, -, length
     kClip,      ///< closed V of wire, frame C of tissue/thin/clip.h; size: width, gap between the legs, length
+    kTriangle,  ///< prism along z about the origin, one side towards -y, with a round hole; size: side, hole, height
     kCup,       ///< open along +z, middle of the rim at the origin; size: bore, outer diameter, inner depth
   } shape = Shape::kBox;
   enum class Look : std::uint8_t { kPlastic, kFoam, kSteel, kBoard } look = Look::kPlastic;

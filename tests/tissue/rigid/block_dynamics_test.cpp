@@ -21,7 +21,7 @@ RigidBody block_at(const Vec3& middle, const Mat3& R = Mat3::Identity()) {
 
 void run(std::vector<RigidBody>& bodies, double seconds, const std::vector<Pusher>& pushers = {},
          double friction = 0.6) {
-  BlockDynamics dynamics({0, friction, 300});
+  BlockDynamics dynamics({.friction = friction});
   for (int i = 0; i < std::lround(seconds / 0.01); ++i) dynamics.step(bodies, pushers, 0.01);
 }
 
@@ -39,7 +39,7 @@ TEST(BlockDynamics, AFreeFallIsExact) {
 
 TEST(BlockDynamics, FallTimeFromThirtyMillimetres) {
   std::vector<RigidBody> bodies{block_at(Vec3(0, 0, 0.040))};
-  BlockDynamics dynamics({0, 0.6, 300});
+  BlockDynamics dynamics(BlockDynamicsSettings{});
   int steps = 0;
   while (bodies[0].X_TB.p.z() > 0.010 + 1e-4 && steps < 100) {
     dynamics.step(bodies, {}, 0.001);
@@ -51,7 +51,7 @@ TEST(BlockDynamics, FallTimeFromThirtyMillimetres) {
 TEST(BlockDynamics, LandsWithoutBouncingAndSleepsUpright) {
   std::vector<RigidBody> bodies{block_at(Vec3(0, 0, 0.040))};
   double highest_after_landing = 0;
-  BlockDynamics dynamics({0, 0.6, 300});
+  BlockDynamics dynamics(BlockDynamicsSettings{});
   for (int i = 0; i < 60; ++i) {
     dynamics.step(bodies, {}, 0.01);
     if (i > 10) highest_after_landing = std::max(highest_after_landing, bodies[0].X_TB.p.z());
@@ -93,7 +93,7 @@ TEST(BlockDynamics, NeverGainsEnergy) {
       block_at(Vec3(0, 0, 0.05), Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.3).normalized()).toRotationMatrix())};
   bodies[0].velocity_T = Vec3(0.2, -0.1, 0);
   bodies[0].spin_T = Vec3(5, -3, 8);
-  BlockDynamics dynamics({0, 0.6, 300});
+  BlockDynamics dynamics(BlockDynamicsSettings{});
   double before = energy(bodies[0]);
   for (int i = 0; i < 300; ++i) {
     dynamics.step(bodies, {}, 0.001);
@@ -118,7 +118,7 @@ TEST(BlockDynamics, StacksStandAndAreWokenByALanding) {
 
 TEST(BlockDynamics, TheInstrumentPushesABlockAlong) {
   std::vector<RigidBody> bodies{block_at(Vec3(0, 0, 0.010))};
-  BlockDynamics dynamics({0, 0.6, 300});
+  BlockDynamics dynamics(BlockDynamicsSettings{});
   const double speed = 0.05;
   double x = -0.012;  // capsule upright, 2.5 mm, low on the block's side
   for (int i = 0; i < 60; ++i) {
@@ -132,7 +132,7 @@ TEST(BlockDynamics, TheInstrumentPushesABlockAlong) {
 
 TEST(BlockDynamics, ABlockPinnedAgainstTheBoardYieldsInsteadOfExploding) {
   std::vector<RigidBody> bodies{block_at(Vec3(0, 0, 0.010))};
-  BlockDynamics dynamics({0, 0.6, 300});
+  BlockDynamics dynamics(BlockDynamicsSettings{});
   for (int i = 0; i < 100; ++i) {
     const double z = 0.0225 - 0.00006 * i;  // 6 mm into the foam
     dynamics.step(bodies, {{{Vec3(0, 0, z), Vec3(0, 0, 0.1), 0.0025}, Vec3(0, 0, -0.006), Vec3::Zero(), Vec3::Zero()}},

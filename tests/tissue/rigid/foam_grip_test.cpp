@@ -40,7 +40,7 @@ struct Rig {
   void step(double opening) {
     jaws.opening_m = opening;
     jaws.grip_n = grip_block(grip.block(bodies, foams, jaws.X_TI), opening).force_n;
-    grip.update(jaws, board, 0, kStep, bodies, foams);
+    grip.update(jaws, board, 0, {}, kStep, bodies, foams);
   }
   /// Steps with the opening that squeezes with this force.
   void squeeze(double force) {

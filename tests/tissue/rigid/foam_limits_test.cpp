@@ -85,7 +85,7 @@ TEST(BlockDynamics, APusherSparesTheBodyThatItIsToldToSpare) {
     pusher.shape = {Vec3(-0.012, 0, 0.005), Vec3(-0.012, 0, 0.015), 0.0025};
     pusher.velocity_T = Vec3(0.05, 0, 0);
     pusher.spares = spares;
-    BlockDynamics dynamics({0, 0.6, 300});
+    BlockDynamics dynamics(BlockDynamicsSettings{});
     dynamics.step(bodies, {pusher}, 0.01);
     EXPECT_EQ(bodies[0].X_TB.p.x() > 1e-6, spares < 0);
     EXPECT_EQ(bodies[0].asleep, spares == 0);
@@ -117,7 +117,7 @@ struct Rig {
   }
   void step(double grip_n) {
     jaws.grip_n = grip_n;
-    grip.update(jaws, board, 0, kStep, bodies, foams);
+    grip.update(jaws, board, 0, {}, kStep, bodies, foams);
   }
   void raise(double height) {
     for (int i = 0; i < 20; ++i) {
