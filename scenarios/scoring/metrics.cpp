@@ -171,6 +171,14 @@ constexpr MetricDefinition kCatalogue[] = {
     {"localisation_error_m", "m", "distance of a right mark from its nodule along the surface, mean over them",
      "mean of NODULE_FOUND", kLess},
     {"searched_share", "1", "share of the region that was pressed", "value of SEARCH_ENDED", kMore},
+    {"clips_correct_share", "1", "clips that are on as they should be, of the six asked for",
+     "places of CLIP_SET without a later CLIP_WASTED / 6", kMore, kErrors},
+    {"clips_wasted", "1", "clips that do not count or came off, and closings that set none", "count of CLIP_WASTED",
+     kLess, kErrors},
+    {"clip_errors", "1", "clips wasted, wrong structures touched, cuts too near to a clip",
+     "count of CLIP_WASTED, WRONG_STRUCTURE and DIVIDED that is not info", kLess, kErrors},
+    {"cut_off_middle_m", "m", "distance of a cut from the middle between the clips beside it, mean over structures",
+     "mean of DIVIDED", kLess},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -262,6 +270,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_camera_metrics(graded, graded_events, context, metrics);
   add_wire_metrics(graded, graded_events, context, metrics);
   add_palpate_metrics(graded_events, context, metrics);
+  add_clip_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -62,6 +62,8 @@ void add_camera_metrics(const Trace& trace, const std::vector<Event>& events, co
 void add_wire_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                       MetricSink& sink);
 void add_palpate_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
+/// @param events of the graded window.
+void add_clip_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar
