@@ -18,6 +18,7 @@ inline constexpr int kMaxTissueMarks = 32;
 inline constexpr int kMaxClipsSeen = 32;
 inline constexpr int kMaxDropsSeen = 64;
 inline constexpr int kMaxFollowedPlaces = 32;
+inline constexpr int kMaxDuctMarks = 24;
 
 enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
@@ -95,6 +96,18 @@ struct SurfacePlace {
   Vec3 point_T = Vec3::Zero(), normal_T = Vec3::UnitZ();
 };
 
+/// A clip that is on a duct or vessel, or a place where that is cut or torn through, or nicked.
+struct DuctMark {
+  enum class Kind : std::uint8_t { kClip, kCut, kTorn, kNick } kind = Kind::kClip;
+  std::int32_t duct = 0;    ///< index in the scene
+  double arc_m = 0;         ///< along it, from where its content comes; stays the same however it lies
+  double share = 1;         ///< of its width that is shut or open
+  double angle_rad = 0;     ///< clip: from straight across
+  double tip_beyond_m = 0;  ///< clip: of its tips beyond the far wall, squeezed flat
+
+  bool operator==(const DuctMark&) const = default;
+};
+
 /// Blood in the air.
 struct DropState {
   Vec3 place_T = Vec3::Zero();
@@ -122,6 +135,10 @@ struct TissueFrame {
   std::array<DropState, kMaxDropsSeen> drop;
   std::int32_t place_count = 0;                        ///< 0 where the organ stands still
   std::array<SurfacePlace, kMaxFollowedPlaces> place;  ///< TissueSetup::followed, where they are now
+  std::int32_t duct_mark_count = 0;                    ///< those beyond kMaxDuctMarks are not told
+  std::array<DuctMark, kMaxDuctMarks> duct_mark;
+  /// On which of the ducts the contact that bears most on one lies, else which alone lies between the jaws; -1: none.
+  std::int32_t touched_duct = -1;
   /// Where the contact that bears most lies on an organ that gives way, at rest; nothing: none does there.
   std::optional<Vec3> touched_rest_T;
 

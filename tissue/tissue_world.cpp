@@ -316,6 +316,10 @@ void TissueWorld::add_ducts(ContactPatch& patch) {
   surgery.refusals += ducts_->refusals();
   for (const Pose& clip : ducts_->clip_poses())
     if (frame_.clip_count < kMaxClipsSeen) frame_.clip[static_cast<std::size_t>(frame_.clip_count++)] = clip;
+  frame_.touched_duct = ducts_->touched();
+  const std::vector<DuctMark> marks = ducts_->marks();
+  frame_.duct_mark_count = static_cast<std::int32_t>(std::min<std::size_t>(marks.size(), kMaxDuctMarks));
+  std::copy_n(marks.begin(), frame_.duct_mark_count, frame_.duct_mark.begin());
   surgery.bile_leaks = ducts_->bile_leaks();
   surgery.bile_ml = ducts_->bile_ml();
 }

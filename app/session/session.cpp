@@ -282,7 +282,8 @@ Backend setup_backend(const AttemptSetup& setup) {
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
                            RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
-  if (scene.setup.tissue == kStillTissue && (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty()))
+  if (scene.setup.tissue == kStillTissue &&
+      (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty() || !scene.board.ducts_T.empty()))
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
                      "' does not, choose another");
   if (!hooks.hand && !scene.loop.daq.motors) {

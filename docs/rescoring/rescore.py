@@ -279,6 +279,28 @@ def holds_lost(attempt):
     return attempt.count("SLIP", "LET_GO", "COVERED") if attempt.count("TISSUE_TAKEN") else None
 
 
+def clip_metric(value):
+    """None until something was named, clipped or cut."""
+    def of(attempt):
+        return value(attempt) if attempt.count("NAMED", "CLIP_SET", "CLIP_WASTED", "DIVIDED") else None
+    return of
+
+
+def clips_correct_share(attempt):
+    good = set()
+    for event in attempt.events:
+        if event["type"] == "CLIP_SET":
+            good.add(event["object"])
+        if event["type"] == "CLIP_WASTED":
+            good.discard(event["object"])
+    return len(good) / 6
+
+
+def clip_errors(attempt):
+    close = sum(e["type"] == "DIVIDED" and e["severity"] != "info" for e in attempt.events)
+    return attempt.count("CLIP_WASTED", "WRONG_STRUCTURE") + close
+
+
 METRICS = {
     "time_s": lambda a: a.seconds,
     "wrong_places": lambda a: a.count("WRONG_PLACE"),
@@ -306,6 +328,9 @@ METRICS = {
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,
     "search_share": search_share,
+    "clips_correct_share": clip_metric(clips_correct_share),
+    "clip_errors": clip_metric(clip_errors),
+    "cut_off_middle_m": lambda a: mean_value(a, "DIVIDED"),
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

@@ -49,7 +49,9 @@ struct Board {
   RigidScene rigid;                   ///< board, blocks, ring marks, port; empty on an organ
   std::vector<Vec3> wire_T;           ///< centre line from end to end; empty without
   std::vector<HiddenNodule> nodules;  ///< empty without
-  double spacing_m = 0;               ///< least distance that the targets were laid out with; 0 where none was asked
+  /// Where the exercise's ducts run on this board, one path each; empty: as the exercise names them.
+  std::vector<std::vector<Vec3>> ducts_T;
+  double spacing_m = 0;  ///< least distance that the targets were laid out with; 0 where none was asked
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };

@@ -16,7 +16,7 @@ HandJob task_of(const Percept& percept) {
     case Cue::kReach:
     case Cue::kPress:
     case Cue::kRelease:
-      return {HandJob::Kind::kDisc, percept.target_index};
+      return {percept.asked_instrument ? HandJob::Kind::kClips : HandJob::Kind::kDisc, percept.target_index};
     case Cue::kGrip:
       return {HandJob::Kind::kGrip, -1};
     case Cue::kFinished:

@@ -2,6 +2,7 @@
 
 #include "scenarios/director/director.h"
 #include "scenarios/kinds/camera/camera_kind.h"
+#include "scenarios/kinds/clip/clip_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
@@ -14,8 +15,9 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(), touch_kind(),   grasp_kind(),   camera_kind(),
-                                                  wire_kind(),  retract_kind(), palpate_kind(), pegs_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(),   grasp_kind(),
+                                                  camera_kind(),  pegs_kind(),    wire_kind(),
+                                                  retract_kind(), palpate_kind(), clip_kind()};
   return kinds;
 }
 

@@ -179,6 +179,14 @@ constexpr MetricDefinition kCatalogue[] = {
     {"time_left_less_lost_s", "s",
      "time left once all rings are moved, less 100 s when all were lost; not an FLS score",
      "max(0, limit - time - 100 lost / rings)", kMore, kTime},
+    {"clips_correct_share", "1", "clips that are on as they should be, of the six asked for",
+     "places of CLIP_SET without a later CLIP_WASTED / 6", kMore, kErrors},
+    {"clips_wasted", "1", "clips that do not count or came off, and closings that set none", "count of CLIP_WASTED",
+     kLess, kErrors},
+    {"clip_errors", "1", "clips wasted, wrong structures touched, cuts too near to a clip",
+     "count of CLIP_WASTED, WRONG_STRUCTURE and DIVIDED that is not info", kLess, kErrors},
+    {"cut_off_middle_m", "m", "distance of a cut from the middle between the clips beside it, mean over structures",
+     "mean of DIVIDED", kLess},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -273,6 +281,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_palpate_metrics(graded_events, context, metrics);
   add_pegs_metrics(graded_events, context,
                    window ? std::optional<double>(window->second - window->first) : std::nullopt, metrics);
+  add_clip_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

@@ -65,6 +65,8 @@ void add_palpate_metrics(const std::vector<Event>& events, const ScoringContext&
 /// @param events of the graded window. @param time_s its length; nothing: there is none
 void add_pegs_metrics(const std::vector<Event>& events, const ScoringContext& context, std::optional<double> time_s,
                       MetricSink& sink);
+/// @param events of the graded window.
+void add_clip_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

@@ -16,7 +16,7 @@
 namespace trocar {
 
 struct ClipOptions {
-  double length_m = 0.0085;   ///< of the legs, closed: medium-large 8 to 9 mm (unchecked)
+  double length_m = 0.009;    ///< of the legs, closed: medium-large 8 to 9 mm (unchecked)
   double width_m = 0.0012;    ///< along the rod (unchecked)
   double leg_m = 0.0008;      ///< thickness of a leg (unchecked)
   double mass_kg = 4e-5;      ///< (unchecked)

@@ -38,7 +38,7 @@ struct ClipApplierOptions {
   double engaged_opening_m = 0.005;  ///< jaws closed so far have begun (unchecked)
   double shut_opening_m = 0.0005;    ///< beyond both walls of what is between: shut (unchecked)
   double reopened_m = 0.001;         ///< opened by so much again: given up (a choice)
-  double least_tip_m = 0.002;        ///< of the tips beyond the far wall (unchecked: "some mm")
+  double least_tip_m = 0.001;        ///< of the tips beyond the far wall: they are to be seen (a choice)
   double most_angle_rad = 0.349;     ///< 20 degrees from straight across
 };
 

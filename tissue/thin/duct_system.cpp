@@ -41,6 +41,35 @@ std::int32_t nearest_vertex(const TriangleSurface& surface, const Vec3& place) {
   return static_cast<std::int32_t>(nearest - surface.vertices.begin());
 }
 
+/// Which of them holds the strongest contact; -1: none is one.
+std::int32_t borne_most(std::span<const SolvedContacts> touches) {
+  double most = 0;
+  std::int32_t found = -1;
+  for (std::size_t d = 0; d < touches.size(); ++d)
+    for (std::int32_t i = 0; i < touches[d].count; ++i) {
+      const SolvedContact& contact = touches[d].at[static_cast<std::size_t>(i)];
+      const double force = contact.force_T.dot(contact.normal_T);
+      if (force > most) most = force, found = static_cast<std::int32_t>(d);
+    }
+  return found;
+}
+
+std::optional<DuctMark::Kind> opening_of(DuctChange::Kind kind) {
+  switch (kind) {
+    case DuctChange::Kind::kCut:
+      return DuctMark::Kind::kCut;
+    case DuctChange::Kind::kNicked:
+      return DuctMark::Kind::kNick;
+    case DuctChange::Kind::kTorn:
+    case DuctChange::Kind::kAvulsed:
+      return DuctMark::Kind::kTorn;
+    case DuctChange::Kind::kClipped:
+    case DuctChange::Kind::kSealed:
+      break;
+  }
+  return std::nullopt;
+}
+
 bool holds(GripState state) { return state == GripState::kHolding || state == GripState::kSlipping; }
 
 /// What an instrument has between its jaws; nothing without jaws.
@@ -202,6 +231,8 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
   if (present) use_jaws(stylus, tool, organ);
   std::vector<SolvedContacts> touches;
   for (std::size_t d = 0; d < ducts_.size(); ++d) touches.push_back(contacts_of(d, contacts));
+  touched_ = present ? borne_most(touches) : -1;
+  if (present && touched_ < 0) touched_ = surrounded(stylus, tool);
   if (present) weld(stylus, tool, touches);
   anchor(organ);
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
@@ -235,6 +266,21 @@ std::vector<ClipSurroundings::Rod> DuctSystem::rods(std::vector<std::vector<doub
   for (const Duct& duct : ducts_) arcs.push_back(duct.tube.clips.arcs());
   for (std::size_t d = 0; d < ducts_.size(); ++d) out.push_back({&ducts_[d].tube.rod, arcs[d]});
   return out;
+}
+
+/// The only one whose axis passes between the jaws; -1: none or several do.
+std::int32_t DuctSystem::surrounded(const StylusState& stylus, const Tool& tool) const {
+  const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
+  std::int32_t found = -1;
+  for (std::size_t d = 0; jaws && d < ducts_.size(); ++d) {
+    const auto crossings = rod_crossings(ducts_[d].tube.rod, stylus.X_TI, *jaws);
+    const bool inside = std::any_of(crossings.begin(), crossings.end(), [&](const RodCrossing& crossing) {
+      return crossing.point_I.z() < 0 && std::abs(crossing.point_I.y()) <= jaws->opening_m / 2;
+    });
+    if (inside && found >= 0) return -1;
+    if (inside) found = static_cast<std::int32_t>(d);
+  }
+  return found;
 }
 
 void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ) {
@@ -310,7 +356,11 @@ void DuctSystem::weld(const StylusState& stylus, const Tool& tool, std::span<con
 }
 
 void DuctSystem::change(const DuctChange& change) {
-  if (ducts_[static_cast<std::size_t>(change.duct)].tube.apply(change)) changed_.push_back(change);
+  Duct& duct = ducts_[static_cast<std::size_t>(change.duct)];
+  if (!duct.tube.apply(change)) return;
+  changed_.push_back(change);
+  if (const auto kind = opening_of(change.kind))
+    duct.openings.push_back({.kind = *kind, .duct = change.duct, .arc_m = change.arc_m, .share = change.share});
 }
 
 void DuctSystem::take_events() {
@@ -319,6 +369,8 @@ void DuctSystem::take_events() {
       const bool torn = event.kind == RodEvent::Kind::kTorn;  // the rod has done it
       changed_.push_back(
           {torn ? DuctChange::Kind::kTorn : DuctChange::Kind::kAvulsed, static_cast<std::int32_t>(d), event.arc_m});
+      ducts_[d].openings.push_back(
+          {.kind = DuctMark::Kind::kTorn, .duct = static_cast<std::int32_t>(d), .arc_m = event.arc_m});
       ++tears_;
     }
 }
@@ -395,6 +447,22 @@ double DuctSystem::slipped_m() const {
 
 void DuctSystem::add_nodes(std::vector<NodePlace>& nodes_T) const {
   for (const Duct& duct : ducts_) duct.tube.add_nodes(nodes_T);
+}
+
+std::vector<DuctMark> DuctSystem::marks() const {
+  std::vector<DuctMark> out;
+  for (std::size_t d = 0; d < ducts_.size(); ++d) {
+    const DuctTube& tube = ducts_[d].tube;
+    const double flat_m = rod_section(tube.rod.options(), 1).half_width_m;
+    for (const Clip& clip : tube.clips.clips()) {
+      if (!clip.on) continue;
+      const double across = std::min(1.0, std::abs(clip.rotation_rod(2, 0)));
+      out.push_back({DuctMark::Kind::kClip, static_cast<std::int32_t>(d), clip.arc_m, clip.width_share,
+                     std::acos(across), clip.offset_rod.dot(clip.rotation_rod.col(2)) - flat_m});
+    }
+    out.insert(out.end(), ducts_[d].openings.begin(), ducts_[d].openings.end());
+  }
+  return out;
 }
 
 std::vector<Pose> DuctSystem::clip_poses() const {

@@ -30,6 +30,7 @@
 #include "tissue/thin/duct_tube.h"
 #include "tissue/thin/rod_grip.h"
 #include "tissue/thin/rod_scissors.h"
+#include "tissue/tissue_frame.h"
 
 namespace trocar {
 
@@ -89,7 +90,11 @@ class DuctSystem {
 
   std::span<const SurfacePtr> seen() const { return seen_; }  ///< for pictures, one a duct
   void add_nodes(std::vector<NodePlace>& nodes_T) const;      ///< of all, for TissueShape
-  std::vector<Pose> clip_poses() const;                       ///< of all clips that are on, frame of clip_model()
+  /// Clips that are on, then cuts, tears and nicks, duct by duct.
+  std::vector<DuctMark> marks() const;
+  /// Which duct the strongest contact of the last step bore on, else which alone lay between the jaws; -1: none.
+  std::int32_t touched() const { return touched_; }
+  std::vector<Pose> clip_poses() const;  ///< of all clips that are on, frame of clip_model()
   /// Share of a duct's lumen that the jaws press shut, and where. nullopt: they do not.
   std::optional<std::pair<double, double>> pressed(std::size_t duct) const;
   std::span<const DuctChange> changed() const { return changed_; }  ///< in the last step
@@ -112,6 +117,7 @@ class DuctSystem {
     std::array<NodeShares, 2> place{};
     std::array<Vec3, 2> rest_load{Vec3::Zero(), Vec3::Zero()};  ///< on what the ends hang on, before a run
     double hot_s = 0;
+    std::vector<DuctMark> openings = {};  ///< cuts, tears and nicks
   };
   /// A run of vertices and triangles of one duct's tube in contact_.
   struct Piece {
@@ -123,6 +129,7 @@ class DuctSystem {
   void anchor(const SoftOrgan& organ);
   void add_loads(const Duct& duct, std::vector<SoftSpring>& springs) const;
   std::vector<ClipSurroundings::Rod> rods(std::vector<std::vector<double>>& arcs) const;
+  std::int32_t surrounded(const StylusState& stylus, const Tool& tool) const;
   void use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ);
   void use_applier(const StylusState& stylus, std::span<const ClipSurroundings::Rod> rods, const SoftOrgan& organ);
   void use_scissors(const StylusState& stylus, std::span<const ClipSurroundings::Rod> rods);
@@ -145,6 +152,7 @@ class DuctSystem {
   std::vector<Piece> pieces_;
   std::vector<bool> between_;  ///< the jaws, of each duct
   bool grown_ = false;
+  std::int32_t touched_ = -1;
   GripBlock block_;
   GripHold hold_;
   std::vector<SurfacePtr> seen_;

@@ -102,6 +102,17 @@ void StateHash::add(const TissueFrame& frame) {
   add_surgery(frame.surgery);
   add_suture(frame.suture);
   add_clips_and_drops(frame);
+  add_duct_marks(frame);
+}
+
+/// Nothing while no duct is touched, clipped or cut: such runs keep their hash.
+void StateHash::add_duct_marks(const TissueFrame& frame) {
+  if (frame.touched_duct >= 0) add(static_cast<std::uint64_t>(frame.touched_duct));
+  for (std::int32_t i = 0; i < frame.duct_mark_count; ++i) {
+    const DuctMark& mark = frame.duct_mark[static_cast<std::size_t>(i)];
+    add(static_cast<std::uint64_t>(mark.kind) | static_cast<std::uint64_t>(mark.duct) << 8);
+    for (const double value : {mark.arc_m, mark.share, mark.angle_rad, mark.tip_beyond_m}) add(value);
+  }
 }
 
 /// Nothing while nothing has been done to an organ: runs without it keep their hash.

@@ -18,6 +18,7 @@
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/files/strict_toml.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/height_field.h"
@@ -338,6 +339,17 @@ void hide(Scene& scene) {
   scene.soft = std::move(soft);
 }
 
+/// The ducts where the board has them. @throws InputError: this organ has not all of them
+void run_ducts(Scene& scene) {
+  const std::vector<std::vector<Vec3>>& paths_T = scene.board.ducts_T;
+  if (paths_T.empty() || !scene.soft) return;
+  if (scene.ducts.size() != paths_T.size())
+    throw InputError("exercise '" + scene.setup.exercise.id + "' happens at ducts that this organ has not (" +
+                     joined(scene.thin_left_out) + "): choose a liver");
+  for (std::size_t d = 0; d < paths_T.size(); ++d) scene.ducts[d].path_T = paths_T[d];
+  scene.thin_T = drawn_tubes(scene.ducts);
+}
+
 /// As the exercise has it lie; nullopt: it says nothing of it, or this organ has not the one that is to be in the
 /// middle.
 std::optional<Pose> lying(const Exercise& exercise, const Organ& organ) {
@@ -388,6 +400,7 @@ void set_stage(Scene& scene) {
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
   hide(scene);
+  run_ducts(scene);
   if (kind_of(exercise).on_organ) require_reach(scene);
   for (const InstrumentKind kind : exercise.instruments) scene.loop.tools.push_back(make_tool(kind, scene.loop.tool));
   scene.loop.tool = scene.loop.tools.front().shape;

@@ -50,6 +50,10 @@ std::string critical_advice(const Advised& a) {
     return a.words("Try next: carry each block low and within the board, and let go only over its ring.");
   if (event == event_type::kCrush)
     return a.words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  if (event == event_type::kCutTooSoon)
+    return a.words("Try next: count the clips before you take the scissors: two where it comes from, one beyond.");
+  if (event == event_type::kWrongStructure)
+    return a.words("Try next: follow each structure to where it comes from before you clip or cut it.");
   return a.words("Try next: the same again, slower.");
 }
 
@@ -141,7 +145,13 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (is_band_share(m) && judges_pull(a.exercise))
     return words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.");
   if (is_band_share(m)) return in_band_advice(a);
-  if (m == "force_max_n") return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "force_max_n" && judges_pull(a.exercise))
+    return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "force_max_n") return words("Try next: let the jaws close round it without a pull, and open before you go.");
+  if (m == "clips_correct_share")
+    return words("Try next: before you close, look: straight across, tips beyond, clear of the clip beside it.");
+  if (m == "clip_errors") return words("Try next: go in deeper until the tips show beyond, and only then close.");
+  if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "grip_mean_n") return words("Try next: close the jaws only as far as the tissue no longer slides.");
   if (m == "holds_lost") return words("Try next: grip before you lift, and keep the height until the time is over.");
   if (m == "time_to_expose_s") return words("Try next: press the open jaws on, close, and lift at once.");
@@ -219,6 +229,8 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "ring_angle_deg") return words("The ring stood {0} off square on average.", {row.value});
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
+  if (m == "clip_errors") return words(row.raw == 1 ? "One mistake." : "{0} mistakes.", {row.value});
+  if (m == "cut_off_middle_m") return words("Cut {0} off the middle on average.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);
   if (m == "horizon_share") return words("Level for {0} of the time.", {row.value});
   if (m == "wall_contacts")

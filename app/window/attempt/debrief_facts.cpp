@@ -135,6 +135,12 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kNoduleFound) return words("Nodule found");
   if (type == event_type::kFalseMark) return words("False mark");
   if (type == event_type::kSearchEnded) return words("Search ended");
+  if (type == event_type::kNamed) return words("Named by touch");
+  if (type == event_type::kClipSet) return words("Clip set");
+  if (type == event_type::kClipWasted) return words("Clip wasted");
+  if (type == event_type::kWrongStructure) return words("Wrong structure");
+  if (type == event_type::kDivided) return words("Divided");
+  if (type == event_type::kCutTooSoon) return words("Cut without enough clips");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

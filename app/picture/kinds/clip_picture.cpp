@@ -1,0 +1,92 @@
+#include "app/picture/kinds/hud_parts.h"
+#include "app/picture/kinds/kind_picture.h"
+#include "scenarios/kinds/clip/clip_rules.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kRingWider = 0.0026, kRingThick = 0.0009;  // m, of a ring round a structure
+constexpr std::size_t kStepClipsEnd = kFirstCutAim;
+
+bool steps_done(const DirectorStatus& status, std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < to; ++i)
+    if (!status.done[i]) return false;
+  return true;
+}
+
+SceneObject ring_round_place(const Target& place, double radius_m, bool lit) {
+  SceneObject ring;
+  ring.shape = SceneObject::Shape::kRing;
+  ring.style = lit ? SceneObject::Style::kGhostLit : SceneObject::Style::kGhost;
+  const double across = 2 * (radius_m + kRingWider);
+  ring.size_m = {across, across, kRingThick};
+  const Vec3 along = place.R_TI.col(0);
+  ring.X_TO = {Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along).toRotationMatrix(), place.centre_T};
+  return ring;
+}
+
+/// Rings round where clips and cuts are asked for, while they are not there.
+void add_places(const SessionView& view, std::vector<SceneObject>& out) {
+  const DirectorStatus& status = view.director.status();
+  if (!own_rules<ClipLevel>(view.scene.level).places_shown || status.target_index < 0) return;
+  const Exercise& exercise = view.scene.setup.exercise;
+  const ClipAim asked = clip_aim(status.target_index);
+  for (int target = 0; target < kClipAims; ++target) {
+    const ClipAim aim = clip_aim(target);
+    if (aim.structure != asked.structure || aim.step != asked.step || status.done[static_cast<std::size_t>(target)])
+      continue;
+    const Target& place = view.scene.board.targets[static_cast<std::size_t>(target)];
+    const double radius_m = exercise.ducts[static_cast<std::size_t>(aim.structure)].outer_radius_m;
+    out.push_back(ring_round_place(place, radius_m, target == status.target_index));
+  }
+}
+
+std::vector<ForceBar> clip_bars(const SessionView& view) {
+  const Exercise& exercise = view.scene.setup.exercise;
+  const DirectorStatus& status = view.director.status();
+  const ClipRules& rules = own_rules<ClipRules>(exercise);
+  ForceBar pull = force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {rules.pull_low_n, rules.pull_high_n},
+                            exercise.hard_force_n);
+  pull.peak_n = status.peak_force_n;
+  pull.hidden = view.scene.level.force_display != "always" && !status.force_shown;
+  pull.hidden_note = hidden_note(view.scene.level.force_display);
+  return {pull};
+}
+
+/// Ducts and the way of the instrument to them.
+Eigen::AlignedBox3d clip_work(const Scene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const Target& target : scene.board.targets) box.extend(target.centre_T);
+  for (std::size_t d = kClipStructures; d < scene.board.ducts_T.size(); ++d)
+    for (const Vec3& point : scene.board.ducts_T[d]) box.extend(point);
+  return box;
+}
+
+}  // namespace
+
+KindPicture clip_picture() {
+  return {.kind = ExerciseKind::kClip,
+          .steps =
+              [](const RunStage& run) {
+                return std::vector{
+                    hud_step("Touch duct and artery, clip each, cut between", run.done, run.started && !run.done)};
+              },
+          .rows =
+              [](const Scene&, const DirectorStatus& status) {
+                int clips = 0;
+                for (std::size_t i = kFirstClipAim; i < kStepClipsEnd; ++i) clips += status.done[i];
+                return std::vector<HudRow>{{"Clips set", std::to_string(clips) + " / 6", ""},
+                                           {"Mistakes", std::to_string(status.wrong_places), "x"},
+                                           hold_row(status)};
+              },
+          .bars = clip_bars,
+          .add_objects = add_places,
+          .work = clip_work,
+          .telling =
+              [](const SessionView& view) {
+                const DirectorStatus& status = view.director.status();
+                return steps_done(status, kFirstClipAim, kStepClipsEnd) && status.cue == Cue::kSever;
+              }};
+}
+
+}  // namespace trocar
