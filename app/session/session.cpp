@@ -285,6 +285,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   if (scene.setup.tissue == kStillTissue && (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty()))
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
                      "' does not, choose another");
+  if (judges_pull(scene.setup.exercise) && !scene.setup.exercise.sheets.empty() && scene.sheets.empty())
+    throw InputError("exercise '" + scene.setup.exercise.id + "' is about a sheet that '" + scene.organ.name +
+                     "' has not: choose another organ");
   if (!hooks.hand && !scene.loop.daq.motors) {
     throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
   }

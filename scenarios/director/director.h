@@ -43,13 +43,14 @@ struct HiddenNodule {
 
 /// Targets of one board, drawn by the board number as the exercise's kind lays them out.
 struct Board {
-  Vec3 centre_T = Vec3::Zero();       ///< centre of the region on the surface
-  Vec3 start_T = Vec3::Zero();        ///< centre of the start sphere
-  std::vector<Target> targets;        ///< discs, pens, or the rings in which blocks shall stand
-  RigidScene rigid;                   ///< board, blocks, ring marks, port; empty on an organ
-  std::vector<Vec3> wire_T;           ///< centre line from end to end; empty without
-  std::vector<HiddenNodule> nodules;  ///< empty without
-  double spacing_m = 0;               ///< least distance that the targets were laid out with; 0 where none was asked
+  Vec3 centre_T = Vec3::Zero();          ///< centre of the region on the surface
+  Vec3 start_T = Vec3::Zero();           ///< centre of the start sphere
+  std::vector<Target> targets;           ///< discs, pens, or the rings in which blocks shall stand
+  RigidScene rigid;                      ///< board, blocks, ring marks, port; empty on an organ
+  std::vector<Vec3> wire_T;              ///< centre line from end to end; empty without
+  std::vector<HiddenNodule> nodules;     ///< empty without
+  double spacing_m = 0;                  ///< least distance that the targets were laid out with; 0 where none was asked
+  std::shared_ptr<const KindRules> own;  ///< what only its kind lays out, read with own_rules(); nullptr: nothing
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };

@@ -10,12 +10,13 @@ KindLesson touch_lesson();
 KindLesson grasp_lesson();
 KindLesson camera_lesson();
 KindLesson wire_lesson();
+KindLesson find_lesson();
 KindLesson retract_lesson();
 KindLesson palpate_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(),   grasp_lesson(),  camera_lesson(),
-                                               wire_lesson(),  retract_lesson(), palpate_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(), touch_lesson(), grasp_lesson(),   camera_lesson(),
+                                               wire_lesson(),  find_lesson(),  retract_lesson(), palpate_lesson()};
   return lessons;
 }
 
