@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
@@ -9,10 +11,11 @@ namespace {
 using FindShape = SceneObject::Shape;
 using FindStyle = SceneObject::Style;
 
-constexpr double kHeadThick = 0.0010, kHeadOver = 0.0003;  // m: within the flap's thickness while it lies
-constexpr double kBar = 0.18, kRelief = 0.12;              // of the head's diameter: a stroke's width and height
-constexpr double kPlateShare = 0.75;                       // of the ball's diameter: the plate that shows its symbol
-constexpr double kPlateThick = 0.0008;                     // m
+constexpr double kHeadThick = 0.003, kHeadOver = 0.0015;  // m: within the flap's thickness while it lies
+constexpr double kBar = 0.18, kRelief = 0.12;             // of the head's diameter: a stroke's width and height
+constexpr double kPlateShare = 0.75;                      // of the ball's diameter: the plate that shows its symbol
+constexpr double kTellingRead = 0.5;                      // of a hold
+constexpr double kPlateThick = 0.0008;                    // m
 const Vec3 kHeadColour(0.03, 0.04, 0.06), kSymbolColour(0.92, 0.86, 0.55), kPlateColour(0.03, 0.04, 0.06);
 
 /// A stroke of a symbol: in units of the head's diameter, in its plane.
@@ -23,10 +26,10 @@ struct Stroke {
 constexpr double kSixth = 1.0471975511965976;  // of a turn, rad
 const std::vector<Stroke>& strokes(std::int32_t symbol) {
   static const std::vector<std::vector<Stroke>> all{
-      {},                                                                                       // a ring
-      {{0, 0, 0, 0.72}, {0, 0, 1.5 * kSixth, 0.72}},                                            // a cross
-      {{0, -0.19, 0, 0.68}, {0.16, 0.09, -2 * kSixth, 0.68}, {-0.16, 0.09, 2 * kSixth, 0.68}},  // a triangle
-      {{0, -0.18, 0, 0.70}, {0, 0.18, 0, 0.70}}};                                               // two bars
+      {},                                                                                  // a ring
+      {{0, 0, 0, 0.72}, {0, 0, 1.5 * kSixth, 0.72}},                                       // a cross
+      {{0, -0.19, 0, 0.68}, {0.16, 0.09, 2 * kSixth, 0.68}, {-0.16, 0.09, kSixth, 0.68}},  // a triangle
+      {{0, -0.18, 0, 0.70}, {0, 0.18, 0, 0.70}}};                                          // two bars
   return all.at(static_cast<std::size_t>(symbol));
 }
 
@@ -48,13 +51,23 @@ void add_symbol(std::int32_t symbol, double diameter_m, const Pose& X_TH, std::v
   }
 }
 
-/// z along a direction, x as far to the right as it can be.
-Mat3 facing(const Vec3& direction_T) {
+/// z along a direction, x to the right in the picture.
+Mat3 facing(const Vec3& direction_T, const Camera& camera) {
   Mat3 R;
   R.col(2) = direction_T.normalized();
-  R.col(0) = Vec3::UnitY().cross(R.col(2)).normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
+  R.col(1) = R.col(2).cross((camera.look_at_T - camera.eye_T).cross(camera.up_T)).normalized();
+  R.col(0) = R.col(1).cross(R.col(2));
   return R;
+}
+
+/// How far the organ has moved there.
+Vec3 moved(const SessionView& view, const Vec3& place_T) {
+  if (!view.organ_T || view.organ_T->vertices.size() != view.scene.organ_T->vertices.size()) return Vec3::Zero();
+  const auto& rest = view.scene.organ_T->vertices;
+  const auto nearest = std::min_element(rest.begin(), rest.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - place_T).squaredNorm() < (b - place_T).squaredNorm();
+  });
+  return view.organ_T->vertices[static_cast<std::size_t>(nearest - rest.begin())] - *nearest;
 }
 
 void add_plate(const Pose& X_TH, double diameter_m, double thick_m, const Vec3& colour, std::vector<SceneObject>& out) {
@@ -73,7 +86,8 @@ void add_pin(const SessionView& view, std::vector<SceneObject>& out) {
   if (status.target_index < 0) return;
   const HiddenPin& pin = own_rules<FindBoard>(view.scene.board).pins.at(static_cast<std::size_t>(status.target_index));
   const double diameter = 2 * own_rules<FindRules>(view.scene.setup.exercise).pin_radius_m;
-  const Pose X_TH{facing(pin.normal_T), pin.centre_T + kHeadOver * pin.normal_T};
+  const Pose X_TH{facing(pin.normal_T, attempt_camera(view.scene)),
+                  pin.centre_T + moved(view, pin.centre_T) + kHeadOver * pin.normal_T};
   add_plate(X_TH, diameter, kHeadThick, kHeadColour, out);
   if (status.shown_symbol >= 0) add_symbol(status.shown_symbol, diameter, X_TH, out);
 }
@@ -82,7 +96,7 @@ void add_pin(const SessionView& view, std::vector<SceneObject>& out) {
 void add_answers(const SessionView& view, std::vector<SceneObject>& out) {
   const FindRules& rules = own_rules<FindRules>(view.scene.setup.exercise);
   const FindBoard& board = own_rules<FindBoard>(view.scene.board);
-  const Vec3 eye_T = attempt_camera(view.scene).eye_T;
+  const Camera camera = attempt_camera(view.scene);
   const bool asked = view.director.status().cue == Cue::kRead;
   for (std::int32_t symbol = 0; symbol < kMostAnswers; ++symbol) {
     SceneObject ball;
@@ -91,7 +105,7 @@ void add_answers(const SessionView& view, std::vector<SceneObject>& out) {
     ball.size_m = Vec3::Constant(2 * rules.answer_m);
     ball.X_TO.p = board.answers_T[static_cast<std::size_t>(symbol)];
     const double diameter = kPlateShare * 2 * rules.answer_m;
-    const Pose X_TH{facing(eye_T - ball.X_TO.p), ball.X_TO.p};
+    const Pose X_TH{facing(camera.eye_T - ball.X_TO.p, camera), ball.X_TO.p};
     add_plate(X_TH, diameter, kPlateThick, kPlateColour, out);
     add_symbol(symbol, diameter, X_TH, out);
     out.push_back(ball);
@@ -108,9 +122,12 @@ void add_places(const SessionView& view, std::vector<SceneObject>& out) {
   ring.style = FindStyle::kGhostLit;
   ring.size_m = {2 * status.demand.radius_m, 0, 0.001};
   ring.X_TO.p = lift ? status.demand.goal_T : status.demand.centre_T;
-  ring.X_TO.R = facing(status.demand.normal_T);
+  ring.X_TO.R = facing(status.demand.normal_T, attempt_camera(view.scene));
   out.push_back(ring);
 }
+
+/// The places lie on the flap, and only the lit one is told: a disc on the organ would be beneath.
+void hide_discs(const SessionView&, std::vector<TargetMark>& discs) { discs.clear(); }
 
 void add_find_objects(const SessionView& view, std::vector<SceneObject>& out) {
   add_pin(view, out);
@@ -145,8 +162,9 @@ KindPicture find_picture() {
           .telling =
               [](const SessionView& view) {
                 const DirectorStatus& status = view.director.status();
-                return status.shown_symbol >= 0 && status.hold_progress >= 0.5;
-              }};
+                return status.shown_symbol >= 0 && status.hold_progress >= kTellingRead;
+              },
+          .add_marks = hide_discs};
 }
 
 }  // namespace trocar

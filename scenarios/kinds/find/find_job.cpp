@@ -8,6 +8,8 @@ namespace {
 constexpr double kSwingTime = 1.2;         // s of an unhurried swing of the flap, either way
 constexpr double kFlapEnoughShown = 0.98;  // of the angle, that the person wants to see ...
 constexpr double kFlapFurther = 0.006;     // m/s up until then
+constexpr double kFlapLowering = 0.012;    // m/s down from the end of the swing ...
+constexpr double kFlapDown = 0.10;         // ... until so much of the angle is left
 constexpr double kAnswerQuickest = 0.05;   // s
 constexpr double kAnswerLook = 0.30;       // s: arm and eyes come to rest, then the tip is looked at
 constexpr double kAnswerGood = 0.5;        // of the ball's radius that needs no correction
@@ -29,8 +31,12 @@ void FindJob::begin_lift(const Percept& percept, const HandIntent& intent, HandR
 void FindJob::lift(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                    HandRandom& random) {
   if (step() == Step::kLower) {
-    intent.X_TI.p = way_.at(in_step_s());
-    if (in_step_s() > way_.duration_s()) enter(Step::kOpen);
+    if (in_step_s() <= way_.duration_s()) {
+      intent.X_TI.p = way_.at(in_step_s());
+    } else {
+      intent.X_TI.p.z() -= kFlapLowering / skill().speed_factor * dt_s;
+      if (percept.shown_share < kFlapDown) enter(Step::kOpen);
+    }
     return;
   }
   if (percept.shown_symbol >= 0) symbol_ = percept.shown_symbol;
