@@ -8,13 +8,13 @@
 namespace trocar {
 namespace {
 
-constexpr double kFlapSlipFrom = 0.002;  // m of creep that count as a slip
-constexpr double kFlapFirmFrom = 0.7;    // of the lowest wanted grip: from here on it can be lifted
-constexpr double kFlapLies = 0.3;        // of the angle: lower than this the flap may be let go
-constexpr double kCoveredFrom = 0.85;    // of the angle: a hand trembles
-constexpr double kUnfolded = 0.75;       // of the way from the hinge to where the place lies
-constexpr double kGoalAngle = 1.25;      // of the angle from which on the symbol is seen: to where it shall be lifted
-constexpr double kAnswerToast = 1.5;     // s for which an answer is spoken of
+constexpr double kFlapSlipFrom = 0.002;                 // m of creep that count as a slip
+constexpr double kFlapFirmFrom = 0.7;                   // of the lowest wanted grip: from here on it can be lifted
+constexpr double kFlapLies = 0.3;                       // of the angle: lower than this the flap may be let go
+constexpr double kCoveredFrom = 0.85;                   // of the angle: a hand trembles
+constexpr double kUnfolded = 0.9;                       // of the way from the hinge to where the place lies
+constexpr double kGoalAngle = 1.25, kGoalReach = 1.15;  // of the angle asked for, and of that way: where it is taut
+constexpr double kAnswerToast = 1.5;                    // s for which an answer is spoken of
 
 /// The axis about which what lies this way from the hinge turns up.
 Vec3 up_about(const Vec3& lies) { return lies.cross(Vec3::UnitZ()).normalized(); }
@@ -47,7 +47,8 @@ Vec3 FindTask::from_hinge(const Vec3& place_T) const {
 
 Vec3 FindTask::goal_T() const {
   const Vec3 lies = from_hinge(place().centre_T);
-  return place().centre_T - lies + Eigen::AngleAxisd(kGoalAngle * rules_.seen_rad, up_about(lies)) * lies;
+  return place().centre_T - lies +
+         Eigen::AngleAxisd(kGoalAngle * rules_.seen_rad, up_about(lies)) * Vec3(kGoalReach * lies);
 }
 
 void FindTask::follow_grip(const TaskInput& input, EventLog& log) {
@@ -101,8 +102,10 @@ void FindTask::follow_answer(const TaskInput& input, EventLog& log) {
     if ((input.stylus.X_TI.p - board_.answers_T[static_cast<std::size_t>(n)]).norm() <= rules_.answer_m) in_ball = n;
   if (in_ball >= 0 && in_ball != told_) answer_.reset();
   if (in_ball >= 0) told_ = in_ball;
-  if (!input.held(answer_, in_ball >= 0 && !holds_)) return;
+  if (in_ball != last_ball_) last_ball_ = -1;
+  if (!input.held(answer_, in_ball >= 0 && in_ball != last_ball_ && !holds_)) return;
   answer_.reset();
+  last_ball_ = in_ball;
   last_right_ = complete() && told_ == board_.pins[static_cast<std::size_t>(index_)].symbol;
   log.add(last_right_ ? event_type::kAnswered : event_type::kWrongAnswer,
           last_right_ ? Severity::kInfo : Severity::kMajor, index_, log.t_s - lit_at_s_, "s");

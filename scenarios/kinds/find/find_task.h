@@ -48,6 +48,7 @@ class FindTask final : public ExerciseTask {
   double hold_s_;
   HoldTimer answer_;
   std::int32_t index_ = 0, told_ = -1;  ///< told: the ball that the tip is in
+  std::int32_t last_ball_ = -1;         ///< of the last answer, until the tip has left it: it tells one once
   bool holds_ = false, firm_ = false, taken_ = false, exposed_ = false, judged_ = false, slipping_ = false,
        last_right_ = false;
   double lit_at_s_ = 0, exposure_ = 0, held_s_ = 0, slip_from_m_ = 0;

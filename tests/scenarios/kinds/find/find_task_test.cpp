@@ -211,6 +211,14 @@ TEST(FindTask, AWrongAnswerIsGivenOnce) {
   EXPECT_EQ(bench.context().objects_done, 1) << "it was lifted and held";
 }
 
+TEST(FindTask, ATipThatRestsInTheBallOfTheLastAnswerTellsNothingOfTheNextPin) {
+  Bench bench;
+  bench.read(0);
+  bench.tell(bench.symbol(0), 5);
+  EXPECT_EQ(bench.count(event_type::kWrongAnswer), 0);
+  EXPECT_EQ(bench.now().target_index, 1);
+}
+
 TEST(FindTask, OnlyATipThatStaysTells) {
   Bench bench;
   bench.read(0);
