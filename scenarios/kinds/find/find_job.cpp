@@ -8,6 +8,8 @@ namespace {
 constexpr double kSwingTime = 1.2;         // s of an unhurried swing of the flap, either way
 constexpr double kFlapEnoughShown = 0.98;  // of the angle, that the person wants to see ...
 constexpr double kFlapFurther = 0.006;     // m/s up until then
+constexpr double kTighten = 0.020;         // m/s on while the flap hangs slack ...
+constexpr double kTautFrom = 0.5;          // ... that is, below so much of the pull aimed at
 constexpr double kFlapLowering = 0.012;    // m/s down from the end of the swing ...
 constexpr double kFlapDown = 0.10;         // ... until so much of the angle is left
 constexpr double kAnswerQuickest = 0.05;   // s
@@ -24,6 +26,7 @@ void FindJob::begin(const Percept& percept, const HandIntent& intent, HandRandom
 }
 
 void FindJob::begin_lift(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  taut_ = false;
   way_ = aimed_reach(intent.X_TI.p, percept.goal_T - percept.tip_T, percept.target_radius_m,
                      kSwingTime * skill().speed_factor, skill(), random);
 }
@@ -43,7 +46,9 @@ void FindJob::lift(const Percept& percept, const HandSenses& senses, double dt_s
   if (in_step_s() <= way_.duration_s()) {
     intent.X_TI.p = way_.at(in_step_s());
   } else {
-    intent.X_TI.p += pull().speed(senses.force_n(), dt_s, random) * dt_s * percept.target_normal_T;
+    taut_ = taut_ || senses.force_n() > kTautFrom * pull().goal_n();
+    const double speed = taut_ ? pull().speed(senses.force_n(), dt_s, random) : kTighten / skill().speed_factor;
+    intent.X_TI.p += speed * dt_s * percept.target_normal_T;
     if (percept.shown_share < kFlapEnoughShown) intent.X_TI.p.z() += kFlapFurther / skill().speed_factor * dt_s;
   }
   if (percept.cue != Cue::kLower || in_step_s() < skill().reaction_s) return;

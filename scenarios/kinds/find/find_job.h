@@ -28,7 +28,7 @@ class FindJob final : public RetractJob {
   ReachPlan way_;
   int symbol_ = -1;
   double telling_s_ = 0, thought_s_ = 0;
-  bool telling_ = false;
+  bool telling_ = false, taut_ = false;
 };
 
 }  // namespace trocar
