@@ -286,6 +286,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
       (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty() || !scene.board.ducts_T.empty()))
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
                      "' does not, choose another");
+  if (judges_pull(scene.setup.exercise) && !scene.setup.exercise.sheets.empty() && scene.sheets.empty())
+    throw InputError("exercise '" + scene.setup.exercise.id + "' is about a sheet that '" + scene.organ.name +
+                     "' has not: choose another organ");
   if (!hooks.hand && !scene.loop.daq.motors) {
     throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
   }

@@ -238,6 +238,13 @@ def search_share(attempt):
     return (attempt.count("NODULE_FOUND") - attempt.count("FALSE_MARK")) / attempt.context["objects_total"]
 
 
+def right_answers_share(attempt):
+    if not attempt.count("ANSWERED", "WRONG_ANSWER"):
+        return None
+    right = {e["object"] for e in attempt.events if e["type"] == "ANSWERED"}
+    return len(right) / attempt.context["objects_total"]
+
+
 def path_ratio(attempt):
     length, ideal = path_length(attempt), ideal_length(attempt.context)
     return length / ideal if length and ideal > 0 else None
@@ -327,6 +334,7 @@ METRICS = {
     "grip_mean_n": grip_mean,
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,
+    "right_answers_share": right_answers_share,
     "search_share": search_share,
     "clips_correct_share": clip_metric(clips_correct_share),
     "clip_errors": clip_metric(clip_errors),

@@ -51,7 +51,8 @@ struct Board {
   std::vector<HiddenNodule> nodules;  ///< empty without
   /// Where the exercise's ducts run on this board, one path each; empty: as the exercise names them.
   std::vector<std::vector<Vec3>> ducts_T;
-  double spacing_m = 0;  ///< least distance that the targets were laid out with; 0 where none was asked
+  double spacing_m = 0;                  ///< least distance that the targets were laid out with; 0 where none was asked
+  std::shared_ptr<const KindRules> own;  ///< what only its kind lays out, read with own_rules(); nullptr: nothing
 };
 
 enum class Phase : std::uint8_t { kReady, kArmed, kRun, kDone, kTimeout, kFault, kVoid };

@@ -32,7 +32,8 @@ HandJob task_of(const Percept& percept) {
     case Cue::kTake:
     case Cue::kLift:
     case Cue::kLower:
-      return {HandJob::Kind::kLift, percept.target_index};
+      return {percept.answers_T.front() == percept.answers_T.back() ? HandJob::Kind::kLift : HandJob::Kind::kAnswer,
+              percept.target_index};  // lifted to be looked beneath: what is read is then told
     case Cue::kRead:
       return {HandJob::Kind::kAnswer, percept.target_index};
     case Cue::kClip:

@@ -145,6 +145,8 @@ constexpr MetricDefinition kCatalogue[] = {
      "mean of the first EXPOSED of each object", kLess, kTime},
     {"holds_lost", "1", "times that lifted tissue slid, was let go too early or sank back",
      "count of SLIP, LET_GO and COVERED", kLess, kErrors},
+    {"right_answers_share", "1", "symbols read beneath the flap and told rightly / all",
+     "count of different ANSWERED / all objects", kMore, kErrors},
     {"time_per_target_s", "s", "time of the run / spheres held (camera navigation)",
      "(t(end) - t(START)) / objects done", kLess, kTime},
     {"horizon_share", "1",
@@ -276,6 +278,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_rest_metric(trace, events, metrics);
   add_grasp_metrics(graded, graded_events, context, metrics);
   add_retract_metrics(graded_events, metrics);
+  add_find_metrics(graded_events, context, metrics);
   add_camera_metrics(graded, graded_events, context, metrics);
   add_wire_metrics(graded, graded_events, context, metrics);
   add_palpate_metrics(graded_events, context, metrics);

@@ -57,6 +57,8 @@ void add_grasp_metrics(const Trace& trace, const std::vector<Event>& events, con
                        MetricSink& sink);
 /// @param events of the graded window.
 void add_retract_metrics(const std::vector<Event>& events, MetricSink& sink);
+/// @param events of the graded window.
+void add_find_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 void add_camera_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
                         MetricSink& sink);
 void add_wire_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,

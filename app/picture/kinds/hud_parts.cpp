@@ -37,4 +37,19 @@ std::string hidden_note(const std::string& display) {
   return display == "after" ? "shown after the run" : "shown only outside the limits";
 }
 
+std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip_band) {
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
+  ForceBar pull =
+      force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n}, *limits.tip_n);
+  pull.peak_n = status.peak_force_n;
+  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, grip_band, *limits.grip_n);
+  if (level.force_display != "always") {
+    pull.hidden = grip.hidden = level.force_display == "after" || !status.force_shown;
+    pull.hidden_note = grip.hidden_note = hidden_note(level.force_display);
+  }
+  return {pull, grip};
+}
+
 }  // namespace trocar

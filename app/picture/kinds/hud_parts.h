@@ -17,6 +17,8 @@ std::string targets_done(const Scene& scene, const DirectorStatus& status);
 /// Percent of the present hold.
 HudRow hold_row(const DirectorStatus& status);
 ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n);
+/// Of tissue that is held: its pull, and the grip on it.
+std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip);
 /// Why a bar is hidden. @param display of the level: band | after.
 std::string hidden_note(const std::string& display);
 

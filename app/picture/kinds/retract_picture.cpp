@@ -9,21 +9,8 @@ constexpr double kGoalRing = 0.016;  // m, across
 constexpr double kTellingHeld = 0.3;
 
 std::vector<ForceBar> retract_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const ExerciseLevel& level = view.scene.level;
-  const DirectorStatus& status = view.director.status();
-  const JudgedForces limits = judged_forces(exercise, level, view.scene.board, status);
-  ForceBar pull =
-      force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n}, *limits.tip_n);
-  pull.peak_n = status.peak_force_n;
-  ForceBar grip = force_bar(
-      "Grip force", view.record.stylus.grip_force_n,
-      {own_rules<RetractRules>(exercise).grip_low_n, own_rules<RetractRules>(exercise).grip_high_n}, *limits.grip_n);
-  if (level.force_display != "always") {
-    pull.hidden = grip.hidden = level.force_display == "after" || !status.force_shown;
-    pull.hidden_note = grip.hidden_note = hidden_note(level.force_display);
-  }
-  return {pull, grip};
+  const RetractRules& rules = own_rules<RetractRules>(view.scene.setup.exercise);
+  return pull_and_grip(view, {rules.grip_low_n, rules.grip_high_n});
 }
 
 /// The height to which the tissue shall come: a ring round where the tip shall be.

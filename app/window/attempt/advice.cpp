@@ -143,7 +143,9 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   const std::string& m = row.metric;
   if (m == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
   if (is_band_share(m) && judges_pull(a.exercise))
-    return words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.");
+    return a.exercise.breathing.depth_m > 0
+               ? words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.")
+               : words("Try next: lift slowly until the pull is right, and keep still there.");
   if (is_band_share(m)) return in_band_advice(a);
   if (m == "force_max_n" && judges_pull(a.exercise))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
@@ -152,6 +154,10 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: before you close, look: straight across, tips beyond, clear of the clip beside it.");
   if (m == "clip_errors") return words("Try next: go in deeper until the tips show beyond, and only then close.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
+  if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
+    return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "right_answers_share")
+    return words("Try next: say the symbol to yourself while you hold, let the flap down, and only then tell it.");
   if (m == "grip_mean_n") return words("Try next: close the jaws only as far as the tissue no longer slides.");
   if (m == "holds_lost") return words("Try next: grip before you lift, and keep the height until the time is over.");
   if (m == "time_to_expose_s") return words("Try next: press the open jaws on, close, and lift at once.");

@@ -130,6 +130,8 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kExposed) return words("Lifted far enough");
   if (type == event_type::kCovered) return words("Sank back");
   if (type == event_type::kLetGo) return words("Let go too early");
+  if (type == event_type::kAnswered) return words("Symbol told");
+  if (type == event_type::kWrongAnswer) return words("Wrong answer");
   if (type == event_type::kWallContact) return words("Lens touched");
   if (type == event_type::kHorizonLost) return words("Horizon lost");
   if (type == event_type::kNoduleFound) return words("Nodule found");

@@ -93,15 +93,21 @@ void RetractJob::close(const Percept& percept, const HandSenses& senses, double 
   pull_.begin(percept.band_low_n, percept.band_high_n, random);
   lost_s_ = 0;
   enter(Step::kLift);
+  begin_lift(percept, intent, random);
 }
 
-/// Pulls as strongly as is wanted, and further while too little is to be seen; lets down when that is asked for.
 void RetractJob::hold(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                       HandRandom& random) {
   squeeze(senses, dt_s, intent, random);
   const bool gone = senses.grip_n() < kTissueGripFelt / 2 || (step_ == Step::kLift && percept.cue == Cue::kTake);
   lost_s_ = gone ? lost_s_ + dt_s : 0;
   if (lost_s_ > kLostAfter + skill_.reaction_s) return give_up(percept, intent);
+  lift(percept, senses, dt_s, intent, random);
+}
+
+/// Pulls as strongly as is wanted, and further while too little is to be seen; lets down when that is asked for.
+void RetractJob::lift(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                      HandRandom& random) {
   if (step_ == Step::kLift) {
     double speed = pull_.speed(senses.force_n(), dt_s, random);
     const bool allowed = senses.force_n() < percept.band_high_n * skill_.force_bias;

@@ -21,10 +21,22 @@ class RetractJob : public HandWork {
               HandRandom& random) override;
   bool touches() const override { return step_ >= Step::kDescend && step_ <= Step::kOpen; }
 
- private:
+ protected:
   enum class Step : std::uint8_t { kReach, kLook, kDescend, kClose, kSqueeze, kLift, kLower, kOpen, kRetreat };
 
+  /// Held firmly it is lifted from here on ...
+  virtual void begin_lift(const Percept&, const HandIntent&, HandRandom&) {}
+  /// ... and let down: one period of either.
+  virtual void lift(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                    HandRandom& random);
   void enter(Step step);
+  Step step() const { return step_; }
+  double in_step_s() const { return in_step_s_; }
+  const HandSkill& skill() const { return skill_; }
+  ForceGrip& pull() { return pull_; }
+  bool withdrawn() const { return step_ == Step::kRetreat && in_step_s_ > plan_.duration_s(); }
+
+ private:
   void reach(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void approach(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
   void close(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
