@@ -46,7 +46,7 @@ inline constexpr std::array<SweepArm, 5> kSweepArms{{{"drawn"},
 
 /// One attempt of the sweep and, once it was run, what became of it.
 struct SweepJob {
-  std::string given;  ///< the exercise as it was asked for
+  std::string given, given_hand, given_organ;  ///< exercise, hand and organ as they were asked for
   const SweepArm* arm = &kSweepArms[0];
   ValidityScope scope;
   std::shared_ptr<const std::string> ruleset;  ///< bytes of the exercise's file
