@@ -130,10 +130,11 @@ TEST_F(KeptSweep, RefusesPartsAndBoardsThatThereAreNot) {
     expect_refusal(words({"--out", "p", "--part", part}), 2, "--part " + std::string(part) + ": K/N");
   expect_refusal(words({"--part", "1/3"}), 2, "--part needs --out");
   expect_refusal(words({"--list-jobs", "3"}), 2, "--list-jobs needs --out");
-  expect_refusal(words({"--boards", "0..20"}), 2, "practice boards are 0 to 19");
+  for (const char* boards : {"0..20", "-1", "19..1001", "1001000"})
+    expect_refusal(words({"--boards=" + std::string(boards)}), 2,
+                   "practice boards are 0 to 19, unseen ones begin at 1000");
   expect_refusal(words({"--boards", "3..1"}), 2, "--boards 3..1: A..B");
-  expect_refusal({"sweep", "E01", "--hand", "idle", "--level", "exam", "--boards", "1"}, 2,
-                 "an exam's board is unseen");
+  expect_refusal({"sweep", "E01", "--hand", "idle", "--level", "exam", "--boards", "1"}, 2, "do not go with an exam");
   expect_refusal({"sweep", "E01", "--hand", "population#9..3"}, 2, "--hand 9..3: A..B");
   expect_refusal({"sweep", "E01", "--hand", "population"}, 2, "name one of it");
   expect_refusal({"sweep", "merge", "nowhere"}, 2, "nowhere");

@@ -79,8 +79,10 @@ std::string organ_key(const std::string& name_or_file) {
 std::vector<int> boards_of(const SweepPlan& plan, const std::string& level, std::int64_t seed) {
   if (plan.boards.empty()) return {drawn_board(seed, level == kExamLevel)};
   const auto [first, last] = parse_range("--boards", plan.boards);
-  if (first < 0 || last >= kPracticeBoards)
-    throw InputError("--boards " + plan.boards + ": practice boards are 0 to " + std::to_string(kPracticeBoards - 1));
+  const bool practice = first >= 0 && last < kPracticeBoards;
+  if (!practice && (first < kUnseenBoards || last >= kUnseenBoards + kDrawnBoards))
+    throw InputError("--boards " + plan.boards + ": practice boards are 0 to " + std::to_string(kPracticeBoards - 1) +
+                     ", unseen ones begin at " + std::to_string(kUnseenBoards));
   std::vector<int> boards;
   for (std::int64_t board = first; board <= last; ++board) boards.push_back(static_cast<int>(board));
   return boards;
@@ -90,8 +92,7 @@ std::vector<int> boards_of(const SweepPlan& plan, const std::string& level, std:
 std::vector<std::string> levels_of(const SweepPlan& plan, const Exercise& exercise) {
   const bool named = !plan.boards.empty();
   if (named && std::find(plan.levels.begin(), plan.levels.end(), kExamLevel) != plan.levels.end())
-    throw InputError("--boards " + plan.boards +
-                     ": are for practice; an exam's board is unseen, and drawn by the seed");
+    throw InputError("--boards " + plan.boards + ": do not go with an exam, whose board is drawn by the seed");
   if (!plan.levels.empty()) return plan.levels;
   std::vector<std::string> levels;
   for (const ExerciseLevel& level : exercise.levels) {
