@@ -58,7 +58,7 @@ TEST_F(KeptSweep, KilledAtAnyMomentItGoesOnToTheSameBytes) {
       rest.err.find("12 attempts on the simulated plant, " + std::to_string(before) + " of them are in cut already"),
       std::string::npos)
       << rest.err;
-  EXPECT_EQ(merged("cut"), whole);
+  EXPECT_TRUE(merged("cut") == whole);
   const Outcome again = trocar(sweep_into("cut"));
   EXPECT_NE(again.err.find("12 of them are in cut already"), std::string::npos) << again.err;
   EXPECT_EQ(again.out, rest.out) << "from the rows alone";
@@ -70,7 +70,7 @@ TEST_F(KeptSweep, ATornLineIsMadeAgain) {
   std::filesystem::resize_file(folder_ / "torn" / "attempts.jsonl", whole.size() - 20);
   const Outcome again = trocar(sweep_into("torn"));
   EXPECT_NE(again.err.find("the last line was cut off; it is dropped"), std::string::npos) << again.err;
-  EXPECT_EQ(merged("torn"), whole);
+  EXPECT_TRUE(merged("torn") == whole);
 }
 
 TEST_F(KeptSweep, CtrlCKeepsWhatIsOverAndSaysHowToGoOn) {
@@ -95,7 +95,7 @@ TEST_F(KeptSweep, JobsOfGnuParallelMakeTheSameRows) {
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.out.find("part 5 of 5: 2 attempts in "), std::string::npos) << ran.out;
   ASSERT_EQ(trocar(sweep_into("whole")).exit_code, 0);
-  EXPECT_EQ(merged("parts"), merged("whole"));
+  EXPECT_TRUE(merged("parts") == merged("whole"));
 }
 
 TEST_F(KeptSweep, TasksOfASlurmArrayMakeTheSameRows) {
@@ -106,7 +106,7 @@ TEST_F(KeptSweep, TasksOfASlurmArrayMakeTheSameRows) {
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
   }
   ASSERT_EQ(trocar(sweep_into("whole")).exit_code, 0);
-  EXPECT_EQ(merged("tasks"), merged("whole"));
+  EXPECT_TRUE(merged("tasks") == merged("whole"));
 }
 
 TEST_F(KeptSweep, RefusesAnotherRulesetInItsFolder) {
@@ -117,7 +117,7 @@ TEST_F(KeptSweep, RefusesAnotherRulesetInItsFolder) {
   folder_.write("dip.toml", replaced(kDip, "hold_s = 0.2", "hold_s = 0.3"));
   exercise_of(3, 12);
   expect_refusal({"sweep", "short.toml", "--hand", "dip.toml", "--level", "L1", "--seeds", "9", "--out", "mixed"}, 2,
-                 "script of hand dip.toml is ");
+                 "script of hand dip is ");
 }
 
 TEST_F(KeptSweep, RefusesPartsAndBoardsThatThereAreNot) {
@@ -130,10 +130,11 @@ TEST_F(KeptSweep, RefusesPartsAndBoardsThatThereAreNot) {
     expect_refusal(words({"--out", "p", "--part", part}), 2, "--part " + std::string(part) + ": K/N");
   expect_refusal(words({"--part", "1/3"}), 2, "--part needs --out");
   expect_refusal(words({"--list-jobs", "3"}), 2, "--list-jobs needs --out");
-  expect_refusal(words({"--boards", "0..20"}), 2, "practice boards are 0 to 19");
+  for (const char* boards : {"0..20", "-1", "19..1001", "1001000"})
+    expect_refusal(words({"--boards=" + std::string(boards)}), 2,
+                   "practice boards are 0 to 19, unseen ones begin at 1000");
   expect_refusal(words({"--boards", "3..1"}), 2, "--boards 3..1: A..B");
-  expect_refusal({"sweep", "E01", "--hand", "idle", "--level", "exam", "--boards", "1"}, 2,
-                 "an exam's board is unseen");
+  expect_refusal({"sweep", "E01", "--hand", "idle", "--level", "exam", "--boards", "1"}, 2, "do not go with an exam");
   expect_refusal({"sweep", "E01", "--hand", "population#9..3"}, 2, "--hand 9..3: A..B");
   expect_refusal({"sweep", "E01", "--hand", "population"}, 2, "name one of it");
   expect_refusal({"sweep", "merge", "nowhere"}, 2, "nowhere");
@@ -147,8 +148,8 @@ TEST_F(KeptSweep, AShortSeededSweepTellsHandsAndPersonsApart) {
         {"sweep", "E01", "--level", "L2", "--hand", hands, "--boards", "0..1", "--seeds", seeds, "--out", "short"});
     EXPECT_LE(ran.exit_code, 1) << ran.err;
   };
-  add("expert,intermediate,novice,idle", "1..2");
-  add("population#1..6", "1..2");
+  add("expert,intermediate,novice", "1..2");
+  add("population#1..5", "1..2");
   const Outcome report = trocar({"sweep", "report", "short"});
   EXPECT_LE(report.exit_code, 1) << report.err;
   const Json json = Json::parse(file_bytes(folder_ / "short" / "validity.json"));
@@ -156,7 +157,7 @@ TEST_F(KeptSweep, AShortSeededSweepTellsHandsAndPersonsApart) {
   ASSERT_EQ(json["cells"].size(), 1u);
   const Json& cell = json["cells"][0];
   EXPECT_EQ(cell["left_out_by_subscores"]["all"], 12);
-  EXPECT_EQ(cell["population"]["components"]["design"], Json({6, 2, 2}));
+  EXPECT_EQ(cell["population"]["components"]["design"], Json({5, 2, 2}));
   EXPECT_GE(cell["population"]["correlation"], 0.7);
   for (const Json& check : cell["checks"]) {
     const std::string name = check["name"];
@@ -169,9 +170,9 @@ TEST_F(KeptSweep, AShortSeededSweepTellsHandsAndPersonsApart) {
   EXPECT_EQ(page.find("http"), page.find("http-equiv")) << "nothing is fetched";
   EXPECT_EQ(page.find("<script"), std::string::npos);
   const std::string table = file_bytes(folder_ / "short" / "table.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 16 + 24);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 12 + 20);
   EXPECT_EQ(trocar({"sweep", "report", "short"}).out, report.out);
-  EXPECT_EQ(file_bytes(folder_ / "short" / "report.html"), page) << "same rows, same bytes";
+  EXPECT_TRUE(file_bytes(folder_ / "short" / "report.html") == page) << "same rows, same bytes";
 }
 
 }  // namespace

@@ -149,7 +149,8 @@ void add_plan_options(CLI::App& sweep, SweepPlan& plan) {
       ->capture_default_str();
   sweep.add_option("--seeds", plan.seeds, "First and last seed, A..B")->capture_default_str();
   sweep.add_option("--boards", plan.boards,
-                   "Practice boards A..B, each with each seed (default: one that the seed draws)");
+                   "Boards A..B, each with each seed: 0 to 19 of practice, or unseen ones from 1000 (default: one that "
+                   "the seed draws)");
   sweep.add_option("--organ", plan.organ, kOrganForms)->capture_default_str();
   add_tissue_option(sweep, plan.tissue);
 }

@@ -39,8 +39,12 @@ std::int64_t number_of_range(std::string_view text, const std::string& option, c
   return value;
 }
 
-/// Hands with their scripts' digests, the persons of NAME#A..B one by one. A wrong name is refused now.
-std::vector<std::pair<std::string, std::string>> list_hands_of(const SweepPlan& plan, const AssetRoots& assets) {
+struct SweptHand {
+  std::string given, name, sha256;  ///< name or file, the script's own name, of its scripts
+};
+
+/// The persons of NAME#A..B one by one. A wrong name is refused now.
+std::vector<SweptHand> list_hands_of(const SweepPlan& plan, const AssetRoots& assets) {
   std::vector<std::string> names;
   for (const std::string& hand : plan.hands) {
     const auto mark = hand.find('#');
@@ -52,23 +56,33 @@ std::vector<std::pair<std::string, std::string>> list_hands_of(const SweepPlan& 
     for (std::int64_t person = first; person <= last; ++person)
       names.push_back(hand.substr(0, mark + 1) + std::to_string(person));
   }
-  std::vector<std::pair<std::string, std::string>> hands;
+  std::vector<SweptHand> hands;
   std::map<std::string, std::string> digests;
   for (const std::string& name : names) {
     make_hand(name, 0, assets.hands);
     std::string& known = digests[split_person(name).first];
     if (known.empty()) known = digest::of_bytes(hand_bytes(name, assets.hands));
-    hands.emplace_back(name, known);
+    const bool file = name.ends_with(".toml");
+    hands.push_back({name, file ? load_hand_script(name).name : name, known});
   }
   return hands;
+}
+
+/// An organ wherever its file lies: its file's name and bytes.
+std::string organ_key(const std::string& name_or_file) {
+  const std::string sha256 = digest::of_readable_file(name_or_file);
+  return sha256.empty() ? name_or_file
+                        : std::filesystem::path(name_or_file).filename().string() + "@" + sha256.substr(0, 12);
 }
 
 /// Boards of one seed: those that were asked for, or the one that it draws.
 std::vector<int> boards_of(const SweepPlan& plan, const std::string& level, std::int64_t seed) {
   if (plan.boards.empty()) return {drawn_board(seed, level == kExamLevel)};
   const auto [first, last] = parse_range("--boards", plan.boards);
-  if (first < 0 || last >= kPracticeBoards)
-    throw InputError("--boards " + plan.boards + ": practice boards are 0 to " + std::to_string(kPracticeBoards - 1));
+  const bool practice = first >= 0 && last < kPracticeBoards;
+  if (!practice && (first < kUnseenBoards || last >= kUnseenBoards + kDrawnBoards))
+    throw InputError("--boards " + plan.boards + ": practice boards are 0 to " + std::to_string(kPracticeBoards - 1) +
+                     ", unseen ones begin at " + std::to_string(kUnseenBoards));
   std::vector<int> boards;
   for (std::int64_t board = first; board <= last; ++board) boards.push_back(static_cast<int>(board));
   return boards;
@@ -78,8 +92,7 @@ std::vector<int> boards_of(const SweepPlan& plan, const std::string& level, std:
 std::vector<std::string> levels_of(const SweepPlan& plan, const Exercise& exercise) {
   const bool named = !plan.boards.empty();
   if (named && std::find(plan.levels.begin(), plan.levels.end(), kExamLevel) != plan.levels.end())
-    throw InputError("--boards " + plan.boards +
-                     ": are for practice; an exam's board is unseen, and drawn by the seed");
+    throw InputError("--boards " + plan.boards + ": do not go with an exam, whose board is drawn by the seed");
   if (!plan.levels.empty()) return plan.levels;
   std::vector<std::string> levels;
   for (const ExerciseLevel& level : exercise.levels) {
@@ -126,7 +139,8 @@ std::vector<SweepJob> list_jobs(const SweepPlan& plan, const AssetRoots& assets)
     job.row.exercise_version = exercise.version;
     job.row.program = TROCAR_VERSION;
     job.row.key.exercise = exercise.id;
-    job.row.key.organ = plan.organ;
+    job.given_organ = plan.organ;
+    job.row.key.organ = organ_key(plan.organ);
     job.row.key.tissue = plan.tissue.empty() ? exercise.tissue : plan.tissue;
     for (const std::string& level : levels_of(plan, exercise)) {
       const Rubric& rubric = find_level(exercise, level).rubric;
@@ -136,10 +150,11 @@ std::vector<SweepJob> list_jobs(const SweepPlan& plan, const AssetRoots& assets)
       for (const std::string& arm : plan.arms) {
         job.arm = &find_arm(arm);
         job.row.key.arm = arm;
-        for (const auto& [hand, sha256] : hands) {
-          const std::optional<int> person = split_person(hand).second;
-          job.row.key.hand = hand;
-          job.row.hand_sha256 = sha256;
+        for (const SweptHand& hand : hands) {
+          const std::optional<int> person = split_person(hand.given).second;
+          job.given_hand = hand.given;
+          job.row.key.hand = hand.name;
+          job.row.hand_sha256 = hand.sha256;
           job.row.skill = person ? std::optional(latent_skill(*person)) : std::nullopt;
           for (job.row.key.seed = first; job.row.key.seed <= last; ++job.row.key.seed) {
             for (const int board : boards_of(plan, level, job.row.key.seed)) {
@@ -159,9 +174,9 @@ bool run_job(SweepJob& job, const AssetRoots& assets, const std::function<bool()
   RunOptions run;
   run.exercise = job.given;
   run.level = key.level;
-  run.hand = key.hand;
+  run.hand = job.given_hand;
   run.seed = key.seed;
-  run.organ = key.organ;
+  run.organ = job.given_organ;
   run.tissue = key.tissue;
   run.passivity_law = passivity_law_name(job.arm->law);
   AttemptSetup setup = attempt_setup(run, assets);

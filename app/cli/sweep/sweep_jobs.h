@@ -23,9 +23,9 @@ struct SweepPlan {
   std::vector<std::string> exercises;  ///< ids, numbers or files; empty: the whole catalogue
   /// Hands; NAME#A..B stands for the persons A to B of a population.
   std::vector<std::string> hands{"expert", "intermediate", "novice", "clumsy", "speed-runner", "heavy-handed", "idle"};
-  std::vector<std::string> levels;         ///< empty: every level of the exercise
-  std::string seeds = "1..10";             ///< A..B
-  std::string boards;                      ///< A..B of practice, each with each seed; empty: drawn by the seed
+  std::vector<std::string> levels;  ///< empty: every level of the exercise
+  std::string seeds = "1..10";      ///< A..B
+  std::string boards;               ///< A..B, of practice or unseen, each with each seed; empty: drawn by the seed
   std::vector<std::string> arms{"drawn"};  ///< the seed's own, or worse ones (kSweepArms)
   std::string organ = "phantom-liver";
   std::string tissue;  ///< one of kTissueWords; empty: the exercise's
@@ -46,7 +46,7 @@ inline constexpr std::array<SweepArm, 5> kSweepArms{{{"drawn"},
 
 /// One attempt of the sweep and, once it was run, what became of it.
 struct SweepJob {
-  std::string given;  ///< the exercise as it was asked for
+  std::string given, given_hand, given_organ;  ///< exercise, hand and organ as they were asked for
   const SweepArm* arm = &kSweepArms[0];
   ValidityScope scope;
   std::shared_ptr<const std::string> ruleset;  ///< bytes of the exercise's file

@@ -23,9 +23,10 @@ int sweep_merge(const SweepMergeOptions& options, std::ostream& out, std::ostrea
   if (options.out.empty() && options.from.size() != 1)
     throw InputError("--out DIR: into which of the folders? Only one by itself is merged in its place");
   const fs::path into = options.out.empty() ? options.from.front() : options.out;
-  make_folder(into);
-  std::set<fs::path> folders{real_folder(into)};
+  std::set<fs::path> folders;
   for (const fs::path& folder : options.from) folders.insert(real_folder(folder));
+  make_folder(into);
+  folders.insert(real_folder(into));
 
   std::vector<std::unique_ptr<PathLock>> locks;
   SweepRows rows;

@@ -79,7 +79,7 @@ void print_cell(const SweepCell& at, std::ostream& out) {
 }
 
 nlohmann::ordered_json cell_json(const SweepCell& at) {
-  nlohmann::ordered_json hands = nlohmann::ordered_json::array(), checks = hands, without = hands;
+  nlohmann::ordered_json hands = nlohmann::ordered_json::array(), without = hands;
   for (const std::string& hand : at.hands) {
     const HandOutcomes& outcome = at.outcomes.at(hand);
     const GroupSummary s = summarise(outcome.scores);
@@ -97,18 +97,26 @@ nlohmann::ordered_json cell_json(const SweepCell& at) {
   for (const SweepRow& row : at.without_number) {
     without.push_back({{"hand", row.key.hand}, {"seed", row.key.seed}, {"end", end_of(row)}});
   }
-  for (const ValidityCheck& check : at.checks) checks.push_back(check_json(check));
-  return {{"exercise", at.exercise}, {"level", at.level},         {"arm", at.arm->name},
-          {"hands", hands},          {"without_number", without}, {"checks", checks}};
+  return {{"exercise", at.exercise},   {"level", at.level},
+          {"arm", at.arm->name},       {"hands", hands},
+          {"without_number", without}, {"checks", nlohmann::ordered_json::parse(checks_json(at.checks))}};
 }
 
 }  // namespace
 
-nlohmann::ordered_json check_json(const ValidityCheck& check) {
-  if (!check.not_asked.empty()) {
-    return {{"name", check.name}, {"value", nullptr}, {"bar", nullptr}, {"met", true}, {"not_asked", check.not_asked}};
+std::string checks_json(const std::vector<ValidityCheck>& checks) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ValidityCheck& check : checks) {
+    nlohmann::ordered_json one{{"name", check.name}, {"value", nullptr}, {"bar", nullptr}, {"met", check.met}};
+    if (check.not_asked.empty()) {
+      one["value"] = check.value;
+      one["bar"] = check.bar;
+    } else {
+      one["not_asked"] = check.not_asked;
+    }
+    list.push_back(one);
   }
-  return {{"name", check.name}, {"value", check.value}, {"bar", check.bar}, {"met", check.met}};
+  return list.dump();
 }
 
 std::vector<SweepCell> collect_cells(const std::vector<SweepJob>& jobs) {
@@ -124,7 +132,7 @@ std::vector<SweepCell> collect_cells(const std::vector<SweepJob>& jobs) {
       cells.back().scope = job.scope;
     }
     SweepCell& at = cells.back();
-    const std::string hand = split_person(row.key.hand).first;
+    const std::string hand = row.skill ? split_person(row.key.hand).first : row.key.hand;
     if (std::find(at.hands.begin(), at.hands.end(), hand) == at.hands.end()) at.hands.push_back(hand);
     HandOutcomes& outcome = at.outcomes[hand];
     if (row.grade.score) {

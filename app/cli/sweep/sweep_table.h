@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "app/cli/sweep/sweep_jobs.h"
 
 namespace trocar {
@@ -31,8 +29,8 @@ std::vector<SweepCell> collect_cells(const std::vector<SweepJob>& jobs);
 /// Whether every check of every cell is met.
 bool all_met(const std::vector<SweepCell>& cells);
 
-/// {"name","value","bar","met"}; value and bar null and "not_asked" besides where it does not apply.
-nlohmann::ordered_json check_json(const ValidityCheck& check);
+/// A list of {"name","value","bar","met"}; value and bar null and "not_asked" besides where it does not apply.
+std::string checks_json(const std::vector<ValidityCheck>& checks);
 
 void print_cells(const std::vector<SweepCell>& cells, std::ostream& out);
 std::string cells_json(const std::vector<SweepCell>& cells, const std::string& seeds);

@@ -12,12 +12,6 @@ namespace {
 
 using ValidityJson = nlohmann::ordered_json;
 
-ValidityJson checks_json(const std::vector<ValidityCheck>& checks) {
-  ValidityJson list = ValidityJson::array();
-  for (const ValidityCheck& check : checks) list.push_back(check_json(check));
-  return list;
-}
-
 ValidityJson hands_json(const std::vector<ScoredAttempt>& attempts) {
   ValidityJson list = ValidityJson::array();
   for (const auto& [hand, of] : outcomes_by_hand(attempts)) {
@@ -105,7 +99,7 @@ std::string validity_json(const std::vector<ReportedCell>& cells, const std::str
                      {"exercise_version", cell.exercise_version},
                      {"rubric_sha256", cell.rubric_sha256},
                      {"hands", hands_json(cell.attempts)},
-                     {"checks", checks_json(cell.found.checks)},
+                     {"checks", ValidityJson::parse(checks_json(cell.found.checks))},
                      {"left_out_by_subscores", left_out_json(cell.found.by_subscores)},
                      {"left_out_by_score", left_out_json(cell.found.by_score)},
                      {"population", population_json(cell.found.population)}};

@@ -69,14 +69,14 @@ int unmet(const CellValidity& found) {
 
 Table overview(const std::vector<ReportedCell>& cells) {
   Table table{.caption = "Exercises and levels. The bars are those of docs/scoring.md.",
-              .columns = {{"exercise, level", 2.4},
-                          {"checks", 1.1},
-                          {"attempts", 0.8, true},
-                          {"expert", 1, true},
-                          {"intermediate", 1, true},
-                          {"novice", 1, true},
-                          {"r(skill)", 0.7, true},
-                          {"ICC(2,1)", 0.7, true},
+              .columns = {{"exercise, level", 3},
+                          {"checks", 1.2},
+                          {"attempts", 1, true},
+                          {"expert", 1.2, true},
+                          {"intermediate", 1.4, true},
+                          {"novice", 1.2, true},
+                          {"r(skill)", 0.8, true},
+                          {"ICC(2,1)", 0.9, true},
                           {"SEM", 0.6, true}}};
   for (const ReportedCell& cell : cells) {
     const std::map<std::string, HandOutcomes> outcomes = outcomes_by_hand(cell.attempts);
@@ -224,7 +224,7 @@ Facts population_facts(const PopulationValidity& people) {
 
 void add_population(Report& report, const ReportedCell& cell) {
   const PopulationValidity& people = *cell.found.population;
-  report.blocks.push_back(Heading{"A drawn population", 2});
+  report.blocks.push_back(Heading{"A drawn population", 2, true});
   std::vector<std::pair<double, double>> points;
   for (const ScoredAttempt& attempt : cell.attempts) {
     if (attempt.skill) points.emplace_back(*attempt.skill, attempt.grade.score.value_or(0));
