@@ -279,6 +279,16 @@ def holds_lost(attempt):
     return attempt.count("SLIP", "LET_GO", "COVERED") if attempt.count("TISSUE_TAKEN") else None
 
 
+def of_pegs(attempt, *kinds):
+    """Count of these events; None before a ring was on a peg."""
+    return attempt.count(*kinds) if attempt.count("BUMP", "TARGET_HELD") else None
+
+
+def transfer_errors(attempt):
+    drops, bumps = of_pegs(attempt, "DROP"), of_pegs(attempt, "BUMP")
+    return None if drops is None else drops + bumps / 2
+
+
 METRICS = {
     "time_s": lambda a: a.seconds,
     "wrong_places": lambda a: a.count("WRONG_PLACE"),
@@ -305,6 +315,8 @@ METRICS = {
     "grip_mean_n": grip_mean,
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,
+    "transfer_errors": transfer_errors,
+    "grip_marks": lambda a: of_pegs(a, "GRIP_EXCESS"),
     "search_share": search_share,
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
