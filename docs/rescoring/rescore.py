@@ -306,6 +306,14 @@ def clips_correct_share(attempt):
 def clip_errors(attempt):
     close = sum(e["type"] == "DIVIDED" and e["severity"] != "info" for e in attempt.events)
     return attempt.count("CLIP_WASTED", "WRONG_STRUCTURE") + close
+def of_pegs(attempt, *kinds):
+    """Count of these events; None before a ring was on a peg."""
+    return attempt.count(*kinds) if attempt.count("BUMP", "TARGET_HELD") else None
+
+
+def transfer_errors(attempt):
+    drops, bumps = of_pegs(attempt, "DROP"), of_pegs(attempt, "BUMP")
+    return None if drops is None else drops + bumps / 2
 
 
 METRICS = {
@@ -335,6 +343,8 @@ METRICS = {
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,
     "right_answers_share": right_answers_share,
+    "transfer_errors": transfer_errors,
+    "grip_marks": lambda a: of_pegs(a, "GRIP_EXCESS"),
     "search_share": search_share,
     "clips_correct_share": clip_metric(clips_correct_share),
     "clip_errors": clip_metric(clip_errors),

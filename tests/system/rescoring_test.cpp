@@ -32,6 +32,7 @@ TEST_F(Rescoring, AgreesToABillionthOnEveryExercise) {
   attempt("surface-touch", "novice", "L1");
   attempt("limited-grasp", "intermediate", "L1");
   attempt("camera-navigation", "novice", "L2");
+  attempt("peg-transfer", "novice", "L2");
   attempt("ring-on-wire", "novice", "L2");
   attempt("retract-and-hold", "intermediate", "L1", "normal");
   attempt(exercise_of(3, 12), "idle", "L1");
@@ -39,7 +40,7 @@ TEST_F(Rescoring, AgreesToABillionthOnEveryExercise) {
   ASSERT_EQ(exported.exit_code, 0) << exported.err;
   const Outcome made = rescored();
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  EXPECT_EQ(std::count(made.out.begin(), made.out.end(), '\n'), 7) << made.out;
+  EXPECT_EQ(std::count(made.out.begin(), made.out.end(), '\n'), 8) << made.out;
 }
 
 TEST_F(Rescoring, TellsAnAlteredTrace) {

@@ -25,7 +25,7 @@ struct BlockDynamicsSettings {
   double floor_z_m = 0;  ///< height of the board and of the table round it
   double friction = 0.6, peg_friction = 0.2;
   double push_stiffness_n_per_m = 300;  ///< of a block against what pushes it
-  std::vector<PegPost> pegs;
+  std::vector<PegPost> pegs = {};
 };
 
 class BlockDynamics {

@@ -17,6 +17,8 @@ double lowest(const RigidBody& body);
 
 /// A peg with a round end.
 CapsuleShape capsule_of(const PegPost& peg);
+/// Turns a ring that is held askew towards the peg in its hole, as far as the peg has come into it.
+void turn_on_pegs(const std::vector<PegPost>& pegs, RigidBody& ring);
 /// Moves a body that is carried past pegs, as far as they let it: in small steps, pushed out of each after each.
 void carry_past(const std::vector<PegPost>& pegs, const Vec3& to_T, RigidBody& body);
 

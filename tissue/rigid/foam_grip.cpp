@@ -177,6 +177,7 @@ void FoamGrip::carry(const JawReading& jaws, const RigidMaterial& board, double 
   Vec3 through = Vec3::Zero();
   if (!pegs.empty()) {
     const Vec3 free = body.X_TB.p;
+    turn_on_pegs(pegs, body);
     body.X_TB.p = seen;
     carry_past(pegs, free, body);
     const Vec3 off = body.X_TB.p - free;

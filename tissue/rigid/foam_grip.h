@@ -8,10 +8,10 @@
 //   set down  the board turns a held block towards flat against the foam in the pads (k h^2/12 per radian, h as long as
 //   they
 //             hold it), and pushes it up through the pads when it presses harder than 2 mu F
-// A ring is between the pads as thick as its triangle is high, however it is turned; pegs hold it up on its way, and
-// push it through the pads as the board does. The pads close in parallel: their opening is the same along them. Frames
-// T and I (haptics/contact/tool_shape.h: x the hinge axis, pads meeting in y = 0). SI units. Deterministic. Thread:
-// tissue task.
+// A ring is between the pads as thick as its triangle is high, however it is turned; pegs stop it on its way,
+// push it through the pads as the board does, and turn it upright between them as it goes down over one. The pads close
+// in parallel: their opening is the same along them. Frames T and I (haptics/contact/tool_shape.h: x the hinge axis,
+// pads meeting in y = 0). SI units. Deterministic. Thread: tissue task.
 #pragma once
 
 #include <vector>

@@ -46,8 +46,7 @@ std::string press_carefully(const Advised& a) {
 std::string critical_advice(const Advised& a) {
   const std::string& event = a.facts.cause.event;
   if (event == event_type::kCriticalForce) return press_carefully(a);
-  if (event == event_type::kLost)
-    return a.words("Try next: carry each block low and within the board, and let go only over its ring.");
+  if (event == event_type::kLost) return a.words("Try next: stay within the board, and let go only where it belongs.");
   if (event == event_type::kCrush)
     return a.words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
   if (event == event_type::kCutTooSoon)
@@ -165,6 +164,9 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (is_window_share(m))
     return words("Try next: set your grip before you lift, and hold it unchanged until the block stands.");
   if (m == "crushed") return words("Try next: close the jaws slowly and stop as soon as the block no longer slides.");
+  if (m == "transfer_errors")
+    return words("Try next: stop over the peg, look whether the ring is over its middle, and only then lower it.");
+  if (m == "grip_marks") return words("Try next: close slowly, stop in the wanted grip, and keep it while you travel.");
   if (m == "wire_touch_share")
     return words("Try next: where the ring touches stop, ease it back to the middle, and only then go on.");
   if (m == "wire_touches") return words("Try next: look at the gap all round the ring and keep it even as you go.");
@@ -230,6 +232,7 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
   if (is_window_share(m)) return count_of_grip(a, row);
   if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});
+  if (m == "grip_marks") return words(row.raw == 1 ? "Once held too tight." : "{0} times held too tight.", {row.value});
   if (m == "wire_touches")
     return words(row.raw == 1 ? "The ring touched once." : "The ring touched {0} times.", {row.value});
   if (m == "ring_angle_deg") return words("The ring stood {0} off square on average.", {row.value});

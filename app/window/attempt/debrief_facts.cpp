@@ -118,10 +118,11 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kGripHeld) return words("Grip held");
   if (type == event_type::kCrush) return words("Block crushed");
   if (type == event_type::kSlip) return words("Slipped through the jaws");
-  if (type == event_type::kDrop) return words("Block dropped");
-  if (type == event_type::kLost) return words("Block lost");
+  if (type == event_type::kDrop) return words("Dropped");
+  if (type == event_type::kLost) return words("Lost outside the field");
   if (type == event_type::kPlaced) return words("Block placed");
-  if (type == event_type::kMisplaced) return words("Block misplaced");
+  if (type == event_type::kMisplaced) return words("Set down elsewhere");
+  if (type == event_type::kBump) return words("Hit a peg");
   if (type == event_type::kWireTouched) return words("Wire touched");
   if (type == event_type::kRingOff) return words("Ring off the wire");
   if (type == event_type::kRegrasp) return words("Grasped again");

@@ -49,7 +49,7 @@ std::string critical_words(const Translator& words, const AttemptResult& result,
   if (event.type == event_type::kCriticalForce)
     return words("{0} N at {1} s: above the critical limit of {2} N.",
                  {words.number(event.value, 2), t, words.number(exercise.critical_force_n, 1)});
-  if (event.type == event_type::kLost) return words("A block was lost at {0} s: it lies outside the field.", {t});
+  if (event.type == event_type::kLost) return words("Lost at {0} s: it lies outside the field.", {t});
   if (event.type == event_type::kCrush) return words("Too many blocks crushed, the last one at {0} s.", {t});
   if (event.type == event_type::kRingOff) return words("The ring was pulled off the wire at {0} s.", {t});
   if (event.type == event_type::kCutTooSoon)

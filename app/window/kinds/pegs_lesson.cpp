@@ -7,7 +7,7 @@ namespace {
 
 std::vector<LessonStep> pegs_steps(const Translator& w, const Exercise& e, const ExerciseLevel& level, bool pointer) {
   const auto& rules = own_rules<PegsRules>(e);
-  const std::string grip = newtons_between(w, rules.slip_below_n, rules.mark_above_n);
+  const std::string grip = newtons_between(w, rules.wanted.low_n, rules.wanted.high_n);
   return {{StepIcon::kPick, w("Put the open jaws round the lit ring and its peg.")},
           {StepIcon::kSqueeze, pointer ? w("Grip it with {0}: see how far it gives way.", {grip})
                                        : w("Grip it with {0}: looser it slips, tighter it is marked.", {grip})},
@@ -19,7 +19,7 @@ std::vector<LessonStep> pegs_steps(const Translator& w, const Exercise& e, const
 void add_pegs_limits(const Translator& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
   const auto& rules = own_rules<PegsRules>(e);
   out.push_back({w("Rings, across and back"), std::to_string(rules.rings())});
-  out.push_back({w("Wanted grip"), newtons_between(w, rules.slip_below_n, rules.mark_above_n)});
+  out.push_back({w("Wanted grip"), newtons_between(w, rules.wanted.low_n, rules.wanted.high_n)});
   out.push_back({w("A ring is lost"), w("{0} beyond the board", {millimetres(w, rules.lost_margin_m)})});
 }
 

@@ -138,7 +138,7 @@ void PegTask::follow_pegs(const ObjectState& object, std::int32_t index, EventLo
   }
   if (ring.over == peg || lower.z() > rules_.peg_height_m - kMeets) return;
   ring.over = peg;
-  const double off = (lower - pegs_[static_cast<std::size_t>(peg)].foot_T).head<2>().norm();
+  const double off = (object.X_TO.p - pegs_[static_cast<std::size_t>(peg)].foot_T).head<2>().norm();
   if (off <= level_.place_tolerance_m) return;
   ++errors_;
   log.add(event_type::kBump, Severity::kMinor, transfer_of(index), off, "m");

@@ -65,7 +65,7 @@ Board lay_out_pegs(const Exercise& exercise, const ExerciseLevel& level, int boa
       Target target;
       target.centre_T = foot;
       target.radius_m = asked.place_tolerance_m;
-      target.band = {rules.slip_below_n, rules.mark_above_n};
+      target.band = rules.wanted;
       result.targets.push_back(target);
     }
   }

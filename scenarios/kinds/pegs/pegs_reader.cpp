@@ -32,6 +32,8 @@ void read_rings(StrictTable table, PegsRules& rules) {
   rules.ring_stiffness_n_per_m = table.number("stiffness_n_per_m", 10, 5000);
   rules.slip_below_n = table.number("slip_below_n", 0.1, 20);
   rules.mark_above_n = table.number("mark_above_n", 0.1, 50);
+  const auto [gentlest, firmest] = table.pair("hold_with_n", 0.1, 50);
+  rules.wanted = {gentlest, firmest};
   rules.lift_m = table.number("lift_mm", 1, 100) * kMilli;
   rules.drop_m = table.number("drop_mm", 0.5, 50) * kMilli;
   if (rules.hole_radius_m <= rules.peg_radius_m) table.fail("hole_mm", "the peg does not fit into 'hole_mm'");
@@ -39,6 +41,8 @@ void read_rings(StrictTable table, PegsRules& rules) {
     table.fail("hole_mm", "'hole_mm' is wider than the ring");
   if (rules.mark_above_n <= rules.slip_below_n)
     table.fail("mark_above_n", "'mark_above_n' must be above 'slip_below_n'");
+  if (gentlest < rules.slip_below_n || firmest > rules.mark_above_n || firmest <= gentlest)
+    table.fail("hold_with_n", "'hold_with_n' must rise, and lie between 'slip_below_n' and 'mark_above_n'");
   table.finish();
 }
 

@@ -16,6 +16,7 @@ struct PegsRules : KindRules {
   double ring_height_m = 0, hole_radius_m = 0, ring_mass_kg = 0;
   double ring_stiffness_n_per_m = 0;  ///< between the jaws
   double slip_below_n = 0;            ///< a lighter grip does not hold a ring
+  WantedForce wanted;                 ///< grip that is asked for, between these two
   double mark_above_n = 0;            ///< a harder grip leaves a mark
   double lift_m = 0;                  ///< of the ideal path, over the pegs
   double drop_m = 0;                  ///< a ring that falls further, and not down a peg, was dropped

@@ -71,7 +71,7 @@ TEST(BlockDynamics, SlidesOnABoardOfItsOwnHeightAndFriction) {
   std::vector<RigidBody> bodies{box(Vec3(0.02, 0.02, 0.008), 0.002, {Mat3::Identity(), Vec3(0, 0, 0.124)})};
   bodies[0].wake();
   bodies[0].velocity_T.x() = 0.2;
-  BlockDynamics ice({0.120, 0, 300});
+  BlockDynamics ice({.floor_z_m = 0.120, .friction = 0});
   for (int i = 0; i < 50; ++i) ice.step(bodies, {}, 0.01);
   EXPECT_NEAR(bodies[0].X_TB.p.x(), 0.1, 1e-9) << "without friction it slides on";
   EXPECT_NEAR(bodies[0].X_TB.p.z(), 0.124, 1e-4) << "on a board at 120 mm";

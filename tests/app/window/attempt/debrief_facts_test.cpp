@@ -123,7 +123,7 @@ TEST_F(DebriefFactsTest, LostAndCrushedBlocksAreNamed) {
   AttemptResult result = graded(grasp_, "L1");
   result.events = {event(1, "START"), event(21, "LOST", Severity::kCritical, 0.02, "m")};
   put_caps(result, grasp_);
-  EXPECT_EQ(debrief_facts(words_, result, grasp_).reason, "A block was lost at 20.0 s: it lies outside the field.");
+  EXPECT_EQ(debrief_facts(words_, result, grasp_).reason, "Lost at 20.0 s: it lies outside the field.");
   result.events[1].type = "CRUSH";
   EXPECT_EQ(debrief_facts(words_, result, grasp_).reason, "Too many blocks crushed, the last one at 20.0 s.");
   result.events[1].type = "SOMETHING_NEW";

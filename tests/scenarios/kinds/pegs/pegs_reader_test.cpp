@@ -37,6 +37,7 @@ TEST(PegsReader, RefusesWhatCannotBeLaidOut) {
       {"hole_mm = 9", "hole_mm = 3", "the peg does not fit into 'hole_mm'"},
       {"hole_mm = 9", "hole_mm = 11", "'hole_mm' is wider than the ring"},
       {"mark_above_n = 3.5", "mark_above_n = 1.0", "'mark_above_n' must be above 'slip_below_n'"},
+      {"hold_with_n = [1.5, 2.5]", "hold_with_n = [1.0, 2.5]", "between 'slip_below_n' and 'mark_above_n'"},
       {"rows = 3", "rows = 4", "the 'count' of [targets]"},
       {"rows = 3", "rows = 8", "at most"},
       {"lift_mm = 34", "lift_mm = 20", "'lift_mm' is lower than the pegs"},
