@@ -73,7 +73,7 @@ struct Bench {
     mark({.kind = kind, .duct = duct, .arc_m = 1e-3 * arc_mm});
   }
   void clip_all(int duct) {
-    for (const double arc : {9.0, 13.5, 23.0}) clip(duct, arc);
+    for (const double arc : {9.3, 14.3, 23.8}) clip(duct, arc);
   }
   long count(EventType type) const {
     const auto& events = director.events();
@@ -108,8 +108,8 @@ TEST(ClipTask, IsDoneOnceBothAreNamedClippedAndCutBetween) {
   bench.clip_all(kArtery);
   EXPECT_EQ(bench.director.status().cue, Cue::kSever);
   EXPECT_EQ(bench.director.status().demand.instrument, InstrumentKind::kScissors);
-  bench.cut(kDuct, 18.25);
-  bench.cut(kArtery, 18.75);
+  bench.cut(kDuct, 19.05);
+  bench.cut(kArtery, 19.55);
   EXPECT_EQ(bench.director.outcome(), AttemptStatus::kCompleted);
   EXPECT_EQ(bench.done(), kClipAims);
   EXPECT_EQ(bench.metric("clips_correct_share"), 1);
@@ -124,10 +124,10 @@ TEST(ClipTask, AnyOrderIsAsGood) {
   bench.clip(kArtery, 23);
   bench.clip(kArtery, 13.5);
   bench.clip(kArtery, 9);
-  bench.cut(kArtery, 18.25);
+  bench.cut(kArtery, 19.05);
   EXPECT_EQ(bench.director.status().demand.instrument, InstrumentKind::kClipApplier) << "the duct is left";
   bench.clip_all(kDuct);
-  bench.cut(kDuct, 18.25);
+  bench.cut(kDuct, 19.05);
   EXPECT_EQ(bench.metric("clips_correct_share"), 1);
   EXPECT_EQ(bench.critical(), 0);
 }
@@ -254,7 +254,7 @@ TEST(ClipTask, ACutBesideAClipIsAMistakeAndFarFromTheMiddle) {
   Bench bench;
   bench.name_both();
   bench.clip_all(kDuct);
-  bench.cut(kDuct, 16);  // 1.9 mm from the second clip's edge
+  bench.cut(kDuct, 16.8);  // 1.9 mm from the second clip's edge
   EXPECT_EQ(bench.metric("clip_errors"), 1);
   EXPECT_NEAR(bench.metric("cut_off_middle_m"), 0.00225, 1e-9);
   bench.cut(kDuct, 20);
