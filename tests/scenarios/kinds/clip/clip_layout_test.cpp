@@ -15,10 +15,14 @@
 namespace trocar::clip_layout_test {
 namespace {
 
-constexpr double kTop = 0.01;  // m of the box
+constexpr double kTop = 0.01;  // m of the plate
 
 Exercise clip_and_cut() {
   return find_exercise("clip-and-cut", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
+}
+
+TriangleSurface plate(double edge) {
+  return box(Vec3(edge, edge, kTop)).transformed({Mat3::Identity(), Vec3(-edge / 2, -edge / 2, 0)});
 }
 
 Mat3 pointing_down() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix(); }
@@ -26,7 +30,7 @@ Mat3 pointing_down() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationM
 TEST(ClipLayout, EveryBoardHasTheGeometryOfTheFile) {
   const Exercise exercise = clip_and_cut();
   const ClipRules& rules = own_rules<ClipRules>(exercise);
-  const TriangleSurface organ = box(Vec3(0.2, 0.2, 2 * kTop));
+  const TriangleSurface organ = plate(0.2);
   for (const ExerciseLevel& level : exercise.levels) {
     for (int board = 0; board < 20; ++board) {
       const Board out = lay_out_clips(exercise, level, board, {organ, nullptr, pointing_down()});
@@ -54,8 +58,8 @@ TEST(ClipLayout, EveryBoardHasTheGeometryOfTheFile) {
         EXPECT_LT(distance_to_path(path, aim.centre_T), 1e-9);
         EXPECT_NEAR(std::abs(aim.R_TI.col(0).dot((along - along.dot(shaft) * shaft).normalized())), 1, 1e-9)
             << "the hinge lies along it as far as rolling can do it";
-        if (level.mapping == Mapping::kFulcrum)
-          EXPECT_LT((aim.centre_T - level.port_m).cross(shaft).norm(), 1e-9) << "its shaft passes the port";
+        const bool port = level.mapping == Mapping::kFulcrum;
+        EXPECT_LT(port ? (aim.centre_T - level.port_m).cross(shaft).norm() : 0, 1e-9) << "its shaft passes the port";
         for (std::size_t d = kClipStructures; d < out.ducts_T.size(); ++d)
           EXPECT_GT(distance_to_path(out.ducts_T[d], aim.centre_T) - exercise.ducts[d].outer_radius_m,
                     rules.spared_m + rules.clip_width_m / 2)
@@ -68,7 +72,7 @@ TEST(ClipLayout, EveryBoardHasTheGeometryOfTheFile) {
 TEST(ClipLayout, IsDrawnByTheBoardNumberAloneAndMirrorsSome) {
   const Exercise exercise = clip_and_cut();
   const ExerciseLevel& level = exercise.levels[0];
-  const TriangleSurface organ = box(Vec3(0.2, 0.2, 2 * kTop));
+  const TriangleSurface organ = plate(0.2);
   const BoardPlace place{organ, nullptr, pointing_down()};
   EXPECT_EQ(lay_out_clips(exercise, level, 3, place).ducts_T, lay_out_clips(exercise, level, 3, place).ducts_T);
   EXPECT_NE(lay_out_clips(exercise, level, 3, place).ducts_T, lay_out_clips(exercise, level, 4, place).ducts_T);
@@ -84,7 +88,7 @@ TEST(ClipLayout, IsDrawnByTheBoardNumberAloneAndMirrorsSome) {
 
 TEST(ClipLayout, SaysWhereTheOrganIsTooSmall) {
   const Exercise exercise = clip_and_cut();
-  const TriangleSurface organ = box(Vec3(0.03, 0.03, 2 * kTop));
+  const TriangleSurface organ = plate(0.03);
   EXPECT_THROW(lay_out_clips(exercise, exercise.levels[0], 0, {organ, nullptr, pointing_down()}), InputError);
 }
 
@@ -102,7 +106,7 @@ TEST(ClipReader, NamesLineAndColumnOfWhatIsWrong) {
     return test::refusal(test::edited(text, from, to));
   };
   for (const auto& [from, to, said] :
-       {std::array{"clips_at_mm = [9.3, 14.3, 23.8]", "clips_at_mm = [9, 19, 23]", "before 'cut_at_mm'"},
+       {std::array{"clips_at_mm = [9.3, 14.3, 23.8]", "clips_at_mm = [9, 20, 23]", "before 'cut_at_mm'"},
         std::array{"pull_n = [0.3, 0.6]", "pull_n = [0.6, 0.3]", "least, most"},
         std::array{"tissue = \"normal\"", "tissue = \"still\"", "tissue"},
         std::array{"spared_mm = 4", "spared_mn = 4", "spared_mm"}}) {

@@ -88,6 +88,8 @@ struct Bench {
     ScoringContext context = scoring_context(exercise, level, director.board(), director.events(), director.outcome());
     Trace trace;
     trace.rate_hz = 100;
+    trace.samples.resize(1);
+    trace.samples.back().t_s = stylus.t_s;  // the attempt reaches as far as that
     for (const Metric& metric : compute_metrics(trace, director.events(), context))
       if (metric.name == name) return metric.value.value_or(-1);
     return -2;
@@ -146,11 +148,8 @@ TEST(ClipTask, ATouchNamesWhatIsAskedForAndAnotherIsAMistakeOnce) {
   EXPECT_EQ(bench.critical(), 0);
 }
 
-TEST(ClipTask, OpenJawsAnotherInstrumentOrTheClutchNameNothing) {
+TEST(ClipTask, AnotherInstrumentOrTheClutchNamesNothing) {
   Bench bench;
-  bench.stylus.jaw_opening_m = 0.012;
-  bench.touch(kDuct, 3);
-  bench.stylus.jaw_opening_m = 0;
   bench.stylus.instrument = 1;
   bench.touch(kDuct, 3);
   bench.stylus.instrument = 0;
