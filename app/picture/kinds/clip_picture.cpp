@@ -1,3 +1,5 @@
+#include <array>
+
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "scenarios/kinds/clip/clip_rules.h"
@@ -6,6 +8,8 @@ namespace trocar {
 namespace {
 
 constexpr double kRingWider = 0.0026, kRingThick = 0.0009;  // m, of a ring round a structure
+constexpr std::array<std::array<double, 2>, 2> kNeck{{{0.005, 0.014}, {0.015, 0.022}}};  // m beyond the ends; across
+const Vec3 kGallbladder(0.22, 0.25, 0.12);
 constexpr std::size_t kStepClipsEnd = kFirstCutAim;
 
 bool steps_done(const DirectorStatus& status, std::size_t from, std::size_t to) {
@@ -25,8 +29,24 @@ SceneObject ring_round_place(const Target& place, double radius_m, bool lit) {
   return ring;
 }
 
+/// What holds duct and artery at their far ends: the gallbladder's neck, lifted by an assistant. Seen, not felt.
+void add_neck(const Board& board, std::vector<SceneObject>& out) {
+  const Vec3 ends = (board.ducts_T[0].back() + board.ducts_T[1].back()) / 2;
+  const Vec3 along = (ends - (board.ducts_T[0].front() + board.ducts_T[1].front()) / 2).normalized();
+  for (const auto& [beyond_m, across_m] : kNeck) {
+    SceneObject ball;
+    ball.shape = SceneObject::Shape::kSphere;
+    ball.look = SceneObject::Look::kFoam;
+    ball.size_m = Vec3::Constant(across_m);
+    ball.X_TO.p = ends + beyond_m * along;
+    ball.colour = kGallbladder;
+    out.push_back(ball);
+  }
+}
+
 /// Rings round where clips and cuts are asked for, while they are not there.
 void add_places(const SessionView& view, std::vector<SceneObject>& out) {
+  add_neck(view.scene.board, out);
   const DirectorStatus& status = view.director.status();
   if (!own_rules<ClipLevel>(view.scene.level).places_shown || status.target_index < 0) return;
   const Exercise& exercise = view.scene.setup.exercise;

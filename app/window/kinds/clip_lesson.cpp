@@ -7,7 +7,7 @@ namespace {
 
 std::vector<LessonStep> clip_steps(const Translator& w, const Exercise& e, const ExerciseLevel&, bool) {
   const ClipRules& rules = own_rules<ClipRules>(e);
-  return {{StepIcon::kReach, w("Touch the cystic duct, then the cystic artery, with closed jaws for {0} s each.",
+  return {{StepIcon::kReach, w("Lay the jaws round the cystic duct, then round the cystic artery, for {0} s each.",
                                {brief(w, rules.touch_s)})},
           {StepIcon::kSqueeze, w("Take the clip applier. Set two clips on each where it comes from, one beyond.")},
           {StepIcon::kHold, w("A clip lies straight across, its tips show beyond, {0} from the next one at least.",
@@ -39,7 +39,7 @@ KindLesson clip_lesson() {
                       words("Second clip: beside the first, with a gap."),
                       words("Third clip: towards the gallbladder, with room to cut."),
                       words("In the middle between the second and the third clip."),
-                      words("With closed jaws, gently, until it is named."),
+                      words("Lay the jaws round it, gently, until it is named."),
                       words("Good - hold"),
                       words("Stay on it."),
                       words("Take the grasper"),

@@ -14,8 +14,9 @@ constexpr double kStaysFor = 4;                          // s, before speed_fact
 constexpr double kClipJawSpeed = 0.030;                  // m/s of free opening and closing
 constexpr double kClipShutJaw = -0.016;                  // m of intent: the fingers press beyond what they hold
 constexpr double kShutFor = 0.15;                        // s
-constexpr double kTugFor = 0.8;                          // s, before speed_factor
-constexpr double kPulledStiffness = 60;                  // N/m of hand and structure together
+constexpr double kTugFor = 0.2;                          // s at the end of a pull
+constexpr double kPulledStiffness = 70;                  // N/m of a structure, as a person expects it
+constexpr double kLongestTug = 0.050;                    // m
 constexpr double kOver = 0.020;                          // m over the goal at which the reach ends
 constexpr double kClipLate = 0.16, kClipLook = 0.05;     // s: the eyes are that late; looking, before speed_factor
 constexpr double kQuickestClipReach = 0.15;              // s
@@ -25,18 +26,18 @@ constexpr int kTriesInside = 2;  // closings that failed, before drawing back to
 
 }  // namespace
 
-ClipJob::ClipJob(const HandSkill& skill)
-    : skill_(skill), pull_({kPulledStiffness, 3, 0.02, skill.force_bias, skill.force_cv, 0.08}) {}
-
 void ClipJob::enter(Step step) {
   step_ = step;
   in_step_s_ = 0;
   planned_ = false;
+  moves_on_ = moves_on_ && step != Step::kWithdraw;
 }
 
+/// What is closing, or being tried, is done with first.
 void ClipJob::begin(const Percept&, const HandIntent&, HandRandom&) {
   corrections_ = tries_ = 0;
-  enter(Step::kWithdraw);
+  moves_on_ = step_ == Step::kClose || step_ == Step::kTug;
+  if (!moves_on_) enter(Step::kWithdraw);
 }
 
 /// Until they close.
@@ -113,26 +114,28 @@ void ClipJob::close(const Percept& percept, double dt_s, HandIntent& intent, Han
   if (intent.jaw_opening_m > kClipShutJaw) in_step_s_ = 0;
   if (in_step_s_ <= kShutFor) return;
   if (percept.asked_instrument != InstrumentKind::kClipApplier) return enter(Step::kOpen);
-  pull_.begin(percept.band_low_n, percept.band_high_n, random);
+  const double goal_n = (percept.band_low_n + percept.band_high_n) / 2 * skill_.force_bias;
+  const double way = std::clamp(goal_n * (1 + skill_.force_cv * random.normal()) / kPulledStiffness, 0.0, kLongestTug);
+  plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way * percept.target_normal_T,
+                    {0, Vec3::Zero(), 0, reach_time_s(way, way, skill_.speed_factor)});
   enter(Step::kTug);
 }
 
-void ClipJob::tug(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                  HandRandom& random) {
-  intent.X_TI.p += percept.target_normal_T * (pull_.speed(senses.force_n(), dt_s, random) * dt_s);
-  if (in_step_s_ > kTugFor * skill_.speed_factor) enter(Step::kOpen);
+void ClipJob::tug(HandIntent& intent) {
+  intent.X_TI.p = plan_.at(in_step_s_);
+  if (in_step_s_ > plan_.duration_s() + kTugFor) enter(Step::kOpen);
 }
 
 /// Until the next step is noticed: then this job begins anew.
 void ClipJob::open(const Percept& percept, double dt_s, HandIntent& intent) {
   set_jaws(percept, dt_s, intent);
   if (percept.jaw_opening_m < kClearOf * free_jaw(percept)) in_step_s_ = 0;
+  if (moves_on_) return enter(Step::kWithdraw);
   if (in_step_s_ < kClipLate + 2 * skill_.reaction_s + skill_.pause_s) return;
   enter(++tries_ % kTriesInside == 0 ? Step::kWithdraw : Step::kCheck);
 }
 
-void ClipJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
-                     HandRandom& random) {
+void ClipJob::update(const Percept& percept, const HandSenses&, double dt_s, HandIntent& intent, HandRandom& random) {
   in_step_s_ += dt_s;
   switch (step_) {
     case Step::kWithdraw:
@@ -155,7 +158,7 @@ void ClipJob::update(const Percept& percept, const HandSenses& senses, double dt
     case Step::kClose:
       return close(percept, dt_s, intent, random);
     case Step::kTug:
-      return tug(percept, senses, dt_s, intent, random);
+      return tug(intent);
     case Step::kOpen:
       return open(percept, dt_s, intent);
   }

@@ -6,7 +6,6 @@
 // Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
-#include "scenarios/hands/force_grip.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
@@ -16,7 +15,7 @@ namespace trocar {
 
 class ClipJob : public HandWork {
  public:
-  explicit ClipJob(const HandSkill& skill);
+  explicit ClipJob(const HandSkill& skill) : skill_(skill) {}
 
   void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
   void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -32,7 +31,7 @@ class ClipJob : public HandWork {
   void go(Step step, const Percept& percept, double over_m, const HandIntent& intent, HandRandom& random);
   void look(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void close(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
-  void tug(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random);
+  void tug(HandIntent& intent);
   void open(const Percept& percept, double dt_s, HandIntent& intent);
   static void set_jaws(const Percept& percept, double dt_s, HandIntent& intent);
   static double free_jaw(const Percept& percept);
@@ -40,12 +39,11 @@ class ClipJob : public HandWork {
   bool off_place(const Percept& percept, const Vec3& way) const;
 
   HandSkill skill_;
-  ForceGrip pull_;
   ReachPlan plan_;
   TurnPlan turn_;
   Step step_ = Step::kWithdraw;
   double in_step_s_ = 0, since_press_s_ = 0;
-  bool planned_ = false;
+  bool planned_ = false, moves_on_ = false;
   int corrections_ = 0, tries_ = 0;
 };
 

@@ -55,8 +55,8 @@ bool ClipTask::in_hand(const StylusState& stylus, InstrumentKind kind) const {
 void ClipTask::ask_next(EventLog& log) {
   const int before = asked_;
   asked_ = 0;
-  while (asked_ < kClipAims &&
-         (done_[static_cast<std::size_t>(asked_)] || divided_[static_cast<std::size_t>(clip_aim(asked_).structure)]))
+  while (asked_ < kClipAims && ((done_ | spent_)[static_cast<std::size_t>(asked_)] ||
+                                divided_[static_cast<std::size_t>(clip_aim(asked_).structure)]))
     ++asked_;
   if (asked_ == before) return;
   naming_.reset();
@@ -118,17 +118,17 @@ ClipTask::Told ClipTask::fault_of(const DuctMark& clip) const {
   for (std::size_t d = kClipStructures; d < paths_T_.size(); ++d)
     if (distance_to_path(paths_T_[d], at) - radii_m_[d] - rules_.clip_width_m / 2 < rules_.spared_m)
       return {"Too near to what must be spared", "Keep the clip further from the large vessel."};
-  if (nearest_free(clip) < 0) return {"More clips than are needed", "Two where it comes from, one beyond."};
+  if (nearest_free(clip, done_) < 0) return {"More clips than are needed", "Two where it comes from, one beyond."};
   return {};
 }
 
-int ClipTask::nearest_free(const DuctMark& clip) const {
+int ClipTask::nearest_free(const DuctMark& clip, const std::bitset<kClipAims>& taken) const {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kClipsEach; ++i) {
     const int aim = kFirstClipAim + clip.duct * kClipsEach + i;
     const double off = std::abs(clip.arc_m - rules_.clip_at_m[static_cast<std::size_t>(i)]);
-    if (done_[static_cast<std::size_t>(aim)] || off >= least) continue;
+    if (taken[static_cast<std::size_t>(aim)] || off >= least) continue;
     least = off;
     best = aim;
   }
@@ -143,9 +143,10 @@ void ClipTask::judge_clip(const DuctMark& clip, EventLog& log) {
   }
   known_.pop_back();
   const Told fault = fault_of(clip);
-  const int aim = *fault.message == 0 ? nearest_free(clip) : -1;
+  const int aim = *fault.message == 0 ? nearest_free(clip, done_) : -1;
   known_.push_back({clip, aim});
   if (aim < 0) {
+    if (const int spent = nearest_free(clip, done_ | spent_); spent >= 0) spent_.set(static_cast<std::size_t>(spent));
     log.add(event_type::kClipWasted, Severity::kMinor, -1, clip.arc_m, "m");
     return blame(fault, log);
   }

@@ -3,8 +3,9 @@
 // Judged is what the tissue's frame tells: clips and cuts by their place along a duct, angle, width and tips; nothing
 // asks what was meant. A clip counts once both are named, if it shuts the whole width, lies straight across, shows its
 // tips, keeps its distance from the clips that are there and from what must be spared; and three of each structure do.
-// It belongs to the nearest free place that was asked for. Clips may be set and structures cut in any order; which is
-// asked for next is the first that is missing. Naming: the closed grasper touches the structure for a time; while
+// It belongs to the nearest free place that was asked for; one that does not count spends that place: nothing is asked
+// for there any more, but a good clip beside it still fills it. Clips may be set and structures cut in any order; which
+// is asked for next is the first that is missing. Naming: the closed grasper touches the structure for a time; while
 // clutch or port stand the instrument still no time counts.
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit) of each step; NAMED (s of touch); WRONG_STRUCTURE: another than asked
@@ -58,7 +59,7 @@ class ClipTask final : public ExerciseTask {
   void judge_clip(const DuctMark& clip, EventLog& log);
   void judge_opening(const DuctMark& opening, std::span<const DuctMark> marks, EventLog& log);
   Told fault_of(const DuctMark& clip) const;
-  int nearest_free(const DuctMark& clip) const;
+  int nearest_free(const DuctMark& clip, const std::bitset<kClipAims>& taken) const;
   void blame(Told told, EventLog& log);
   void describe_message(const StylusState& stylus, double now_s, DirectorStatus& status) const;
 
@@ -69,7 +70,7 @@ class ClipTask final : public ExerciseTask {
   std::vector<double> radii_m_;
   std::string display_;
   HoldTimer naming_, astray_;
-  std::bitset<kClipAims> done_;
+  std::bitset<kClipAims> done_, spent_;
   std::array<bool, kClipStructures> divided_{};
   std::vector<Known> known_;
   int asked_ = 0, errors_ = 0;

@@ -82,8 +82,8 @@ TEST(ClipApplier, RefusesADuctThatIsNotWhollyBetween) {
 TEST(ClipApplier, RefusesTipsThatDoNotShow) {
   Applied a;
   EXPECT_EQ(a.refusal(test::jaws_from_above({0.02, 0, -0.0030})), ClipRefusal::kTipHidden);
-  EXPECT_EQ(a.refusal(test::jaws_from_above({0.02, 0, -0.0042})), ClipRefusal::kTipHidden);
-  EXPECT_EQ(a.refusal(test::jaws_from_above({0.02, 0, -0.0045})), ClipRefusal::kNone);
+  EXPECT_EQ(a.refusal(test::jaws_from_above({0.02, 0, -0.0033})), ClipRefusal::kTipHidden);
+  EXPECT_EQ(a.refusal(test::jaws_from_above({0.02, 0, -0.0034})), ClipRefusal::kNone);
 }
 
 TEST(ClipApplier, RefusesAClipThatLiesAslant) {
