@@ -32,7 +32,8 @@ enum GroundNumber : int {
   kNearRingGround = 400,
   kRingGround = 500,
   kPressGround = 600,
-  kLiftGround = 700
+  kLiftGround = 700,
+  kAnswerGround = 800
 };
 
 }  // namespace
@@ -93,6 +94,7 @@ struct Surroundings::State {
     const Demand& demand = status.demand;
     const auto level = [](double z) { return [z](double, double) { return z; }; };
     const double off_m = (demand.centre_T - tip_T).head<2>().norm();
+    if (status.cue == Cue::kRead) return {kAnswerGround, level(demand.centre_T.z()), 0};
     if (status.cue == Cue::kLift) return {kLiftGround + status.target_index, level(demand.goal_T.z()), 0};
     const double near = demand.radius_m * (ground.number == kPressGround + status.target_index ? kLeavesDisc : kOnDisc);
     if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < near))

@@ -137,6 +137,7 @@ std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
   if (status.cue == Cue::kCarry || status.cue == Cue::kPlace)
     return {circle(board.targets.at(static_cast<std::size_t>(status.target_index)).centre_T, Vec3::UnitZ(),
                    view.scene.setup.exercise.grasp.ring_radius_m)};
+  if (status.cue == Cue::kRead) return {};  // one of the balls, and which is the question
   if (status.cue == Cue::kLift) return {circle(d.goal_T, Vec3::UnitZ(), d.radius_m + kRoundDisc)};
   if (is_scope(view.scene.setup.exercise))
     return {circle(d.object.X_TO.p, facing(d.object.X_TO.p), 0.5 * d.object.size_m.x() + kRoundDisc)};

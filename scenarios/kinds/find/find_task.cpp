@@ -90,7 +90,7 @@ void FindTask::follow_lift(const TaskInput& input, EventLog& log) {
     judged_ = true;
   } else if (exposed_ && exposure_ < kCoveredFrom) {
     exposed_ = false;
-    if (complete()) return;
+    if (complete() || !holds_) return;  // let go is one loss, and told already
     ++lost_;
     log.add(event_type::kCovered, Severity::kMinor, index_, input.stylus.X_TI.p.z() - place().centre_T.z(), "m");
   }
