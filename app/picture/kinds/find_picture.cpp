@@ -113,7 +113,7 @@ void add_answers(const SessionView& view, std::vector<SceneObject>& out) {
 }
 
 /// Where the flap is to be taken, and to where that shall come.
-void add_places(const SessionView& view, std::vector<SceneObject>& out) {
+void add_pins(const SessionView& view, std::vector<SceneObject>& out) {
   const DirectorStatus& status = view.director.status();
   const bool lift = status.cue == Cue::kLift;
   if (status.cue != Cue::kTake && !lift) return;
@@ -132,7 +132,7 @@ void hide_discs(const SessionView&, std::vector<TargetMark>& discs) { discs.clea
 void add_find_objects(const SessionView& view, std::vector<SceneObject>& out) {
   add_pin(view, out);
   add_answers(view, out);
-  add_places(view, out);
+  add_pins(view, out);
 }
 
 std::vector<ForceBar> find_bars(const SessionView& view) {

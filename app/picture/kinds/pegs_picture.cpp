@@ -7,7 +7,7 @@ namespace trocar {
 namespace {
 
 /// A ghost of the lit ring round the lit peg.
-void add_goal(const SessionView& view, std::vector<SceneObject>& out) {
+void add_peg_goal(const SessionView& view, std::vector<SceneObject>& out) {
   const DirectorStatus& status = view.director.status();
   const std::vector<FoamBlock>& rings = view.scene.board.rigid.blocks;
   if (status.target_index < 0) return;
@@ -58,7 +58,7 @@ KindPicture pegs_picture() {
                                            {"Errors", std::to_string(status.wrong_places), "x"}};
               },
           .bars = ring_bar,
-          .add_objects = add_goal,
+          .add_objects = add_peg_goal,
           .work = pegs_work,
           .telling = carries_over_pegs};
 }
