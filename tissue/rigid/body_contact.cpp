@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kCarryStep = 3e-4;  // m, well below the thinnest wall of a ring
 constexpr int kMostCarrySteps = 100;
+constexpr double kPlayKept = 0.75;
 constexpr int kPushes = 8;  // out of peg after peg, in one step
 
 RigidContact deepest_of(const std::vector<PegPost>& pegs, const RigidBody& body) {
@@ -51,7 +52,7 @@ CapsuleShape capsule_of(const PegPost& peg) {
   return {peg.foot_T, peg.foot_T + Vec3(0, 0, peg.height_m - peg.radius_m), peg.radius_m};
 }
 
-/// A peg of thickness d, in a hole of width D along L of it, leans by t at most: D cos t - L sin t = d. Half of the
+/// A peg of thickness d, in a hole of width D along L of it, leans by t at most: D cos t - L sin t = d. Most of the
 /// play is kept, so that what leans at most does not jam.
 void turn_on_pegs(const std::vector<PegPost>& pegs, RigidBody& ring) {
   const Vec3 hole = ring.X_TB.R.col(2) * (ring.X_TB.R(2, 2) < 0 ? -1 : 1);
@@ -60,7 +61,8 @@ void turn_on_pegs(const std::vector<PegPost>& pegs, RigidBody& ring) {
     if ((peg.foot_T - ring.X_TB.p).head<2>().norm() > ring.hole_radius_m) continue;
     const double lower = ring.X_TB.p.z() - ring.half.z() * hole.z();
     const double along = std::clamp(peg.foot_T.z() + peg.height_m - lower, 0.0, 2 * ring.half.z());
-    const double width = 2 * ring.hole_radius_m, filled = ring.hole_radius_m + peg.radius_m;
+    const double width = 2 * ring.hole_radius_m, play = ring.hole_radius_m - peg.radius_m;
+    const double filled = 2 * (peg.radius_m + kPlayKept * play);
     const double most = std::acos(filled / std::hypot(width, along)) - std::atan2(along, width);
     if (lean <= most) return;
     ring.X_TB.R = Eigen::AngleAxisd(lean - most, hole.cross(Vec3::UnitZ()).normalized()) * ring.X_TB.R;

@@ -30,9 +30,10 @@ constexpr double kGuided = 0.001;             // ... to this height over the rin
 constexpr double kEasing = 0.020;             // m/s at which the hand takes its weight off what stands
 constexpr double kCare = 0.5;  // of the time for the way down, more with each time that something was met
 constexpr int kMostCare = 4;
-constexpr int kTriesASide = 2;         // met by something on the way down that often, the other sides are tried
-constexpr double kGripFelt = 0.12;     // N
-constexpr double kFlat = 0.995;        // least cosine of a block that is seen to stand flat
+constexpr int kTriesASide = 2;      // met by something on the way down that often, the other sides are tried
+constexpr double kGripFelt = 0.12;  // N
+constexpr double kBeside = 2, kSeenBeside = 0.7;  // of tolerance and height: seen to go down beside, it is lifted again
+constexpr double kFlat = 0.995;                   // least cosine of a block that is seen to stand flat
 constexpr double kSet = 0.15;          // N of the board on the block that tells that it stands, when it is ...
 constexpr double kNearlyDown = 0.004;  // m over the ring as it is seen: before, it is the arm that is felt
 constexpr double kFeelLow = 0.75, kFeelHigh = 0.95;  // N, a squeeze that no foam minds
@@ -275,6 +276,11 @@ void GraspJob::bring(const Percept& percept, const HandSenses& senses, double dt
     case Step::kLower: {
       const Vec3 off = percept.goal_T - base_of(percept.object);
       const double under = -off.z();
+      if (off.head<2>().norm() > kBeside * percept.target_radius_m && under < kSeenBeside * kOverRing) {
+        straight(intent.X_TI.p, intent.X_TI.p + Vec3(0, 0, kOverRing - under),
+                 reach_time_s(kOverRing, 0.010, skill_.speed_factor));
+        return enter(Step::kLift);
+      }
       intent.X_TI.p.z() -= speed * std::clamp(under / kSlowFrom, kSlowest, 1.0) * dt_s;
       if (under > kGuided) intent.X_TI.p.head<2>() += kGuiding / skill_.speed_factor * dt_s * off.head<2>();
       const bool flat = percept.object.X_TO.R.row(2).cwiseAbs().maxCoeff() > kFlat && under < 0.0005;

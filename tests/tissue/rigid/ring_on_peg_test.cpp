@@ -92,8 +92,8 @@ TEST(RingOnPeg, ComesOffUpwardsOnly) {
 }
 
 TEST(RingOnPeg, StaysOnTopOfAPegThatMeetsItsWall) {
-  RigidBody ring = ring_at(Vec3(0, 0.007, 0.040));
-  carry_past(kOnePeg, Vec3(0, 0.007, kHalfHeight), ring);
+  RigidBody ring = ring_at(Vec3(0, -0.007, 0.040));
+  carry_past(kOnePeg, Vec3(0, -0.007, kHalfHeight), ring);
   EXPECT_GT(ring.X_TB.p.z(), kPegHeight + kHalfHeight - 0.001);
 }
 

@@ -16,7 +16,7 @@ TEST(PegTask, LightsTheFirstRingAndItsPeg) {
   EXPECT_EQ(status.cue, Cue::kPick);
   EXPECT_EQ(status.demand.centre_T, bench.ring(0).X_TO.p);
   EXPECT_EQ(status.demand.goal_T, bench.goal(0).centre_T);
-  EXPECT_EQ(status.demand.band, (WantedForce{1.5, 2.5}));
+  EXPECT_EQ(status.demand.band, (WantedForce{1.4, 3.0}));
   EXPECT_EQ(status.demand.foam_count, 1);
 }
 
@@ -199,7 +199,7 @@ TEST(PegTricks, DwellingBringsNothing) {
   for (int i = 0; i < 12; ++i) {
     quick.transfer(i);
     slow.transfer(i);
-    slow.feed(3);
+    slow.feed(8);
   }
   EXPECT_LT(slow.grade().score.value(), quick.grade().score.value());
 }
