@@ -10,13 +10,6 @@ namespace {
 constexpr double kRingWider = 0.0026, kRingThick = 0.0009;  // m, of a ring round a structure
 constexpr std::array<std::array<double, 2>, 2> kNeck{{{0.005, 0.014}, {0.015, 0.022}}};  // m beyond the ends; across
 const Vec3 kGallbladder(0.22, 0.25, 0.12);
-constexpr std::size_t kStepClipsEnd = kFirstCutAim;
-
-bool steps_done(const DirectorStatus& status, std::size_t from, std::size_t to) {
-  for (std::size_t i = from; i < to; ++i)
-    if (!status.done[i]) return false;
-  return true;
-}
 
 SceneObject ring_round_place(const Target& place, double radius_m, bool lit) {
   SceneObject ring;
@@ -36,7 +29,7 @@ void add_neck(const Board& board, std::vector<SceneObject>& out) {
   for (const auto& [beyond_m, across_m] : kNeck) {
     SceneObject ball;
     ball.shape = SceneObject::Shape::kSphere;
-    ball.look = SceneObject::Look::kFoam;
+    ball.look = SceneObject::Look::kPlastic;
     ball.size_m = Vec3::Constant(across_m);
     ball.X_TO.p = ends + beyond_m * along;
     ball.colour = kGallbladder;
@@ -94,7 +87,7 @@ KindPicture clip_picture() {
           .rows =
               [](const Scene&, const DirectorStatus& status) {
                 int clips = 0;
-                for (std::size_t i = kFirstClipAim; i < kStepClipsEnd; ++i) clips += status.done[i];
+                for (std::size_t i = kFirstClipAim; i < kFirstCutAim; ++i) clips += status.done[i];
                 return std::vector<HudRow>{{"Clips set", std::to_string(clips) + " / 6", ""},
                                            {"Mistakes", std::to_string(status.wrong_places), "x"},
                                            hold_row(status)};
@@ -104,8 +97,8 @@ KindPicture clip_picture() {
           .work = clip_work,
           .telling =
               [](const SessionView& view) {
-                const DirectorStatus& status = view.director.status();
-                return steps_done(status, kFirstClipAim, kStepClipsEnd) && status.cue == Cue::kSever;
+                return view.director.status().target_index == kClipAims - 1 && view.tissue &&
+                       view.tissue->touched_duct == kClipStructures - 1;
               }};
 }
 

@@ -117,7 +117,7 @@ void ClipJob::close(const Percept& percept, double dt_s, HandIntent& intent, Han
   const double goal_n = (percept.band_low_n + percept.band_high_n) / 2 * skill_.force_bias;
   const double way = std::clamp(goal_n * (1 + skill_.force_cv * random.normal()) / kPulledStiffness, 0.0, kLongestTug);
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way * percept.target_normal_T,
-                    {0, Vec3::Zero(), 0, reach_time_s(way, way, skill_.speed_factor)});
+                    {0, Vec3::Zero(), 0, reach_time_s(way, kOver, skill_.speed_factor)});
   enter(Step::kTug);
 }
 

@@ -49,8 +49,8 @@ void read_clip(StrictTable& document, Exercise& exercise) {
 }
 
 void read_clip_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level) {
-  if (exercise.ducts.size() <= kClipStructures)
-    keys.table.fail("name", "the exercise needs three 'ducts': two to be divided and what must be spared");
+  if (exercise.ducts.size() != 2 * kClipStructures)
+    keys.table.fail("name", "the exercise needs four 'ducts': two to be divided and what each of them comes from");
   ClipLevel own = level.own ? own_rules<ClipLevel>(level) : ClipLevel{};
   own.places_shown = keys.table.flag_or("places_shown", own.places_shown);
   level.own = std::make_shared<const ClipLevel>(own);

@@ -85,16 +85,6 @@ PathPlace place_along(std::span<const Vec3> path_T, double arc_m) {
   return place;
 }
 
-double distance_to_path(std::span<const Vec3> path_T, const Vec3& point_T) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path_T.size(); ++i) {
-    const Vec3 step = path_T[i] - path_T[i - 1];
-    const double share = std::clamp((point_T - path_T[i - 1]).dot(step) / step.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (path_T[i - 1] + share * step - point_T).norm());
-  }
-  return least;
-}
-
 Board lay_out_clips(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
   const ClipRules& rules = own_rules<ClipRules>(exercise);
   const HeightField organ(place.organ_T);

@@ -18,8 +18,6 @@ struct PathPlace {
   Vec3 point_T = Vec3::Zero(), tangent_T = Vec3::UnitX();
 };
 PathPlace place_along(std::span<const Vec3> path_T, double arc_m);
-/// From a point to the nearest of a path, m.
-double distance_to_path(std::span<const Vec3> path_T, const Vec3& point_T);
 
 /// @throws InputError: the organ has no tissue where a duct dives into it
 Board lay_out_clips(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place);

@@ -1,7 +1,8 @@
 // Clip and cut: the duct and the artery to be clipped and divided, and what a clip must be to count, as an exercise
 // file describes it.
 //
-// Of the exercise's ducts the first is the cystic duct and the second the cystic artery; what follows must be spared.
+// Of the exercise's ducts the first is the cystic duct and the second the cystic artery; the third and the fourth, from
+// whose axes those come, must be spared.
 // Lengths m along a structure count from its first point, where its content comes from. Thread: plain values, fixed
 // after loading.
 #pragma once

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "scenarios/kinds/clip/clip_layout.h"
 #include "tissue/thin/duct_system.h"
 
 namespace trocar {
@@ -35,11 +34,11 @@ ClipTask::ClipTask(const Exercise& exercise, const ExerciseLevel& level, const B
     : rules_(own_rules<ClipRules>(exercise)),
       instruments_(exercise.instruments),
       targets_(board.targets),
-      paths_T_(board.ducts_T),
       display_(level.force_display),
       naming_(rules_.touch_s, kHoldGrace),
       astray_(rules_.touch_s, kHoldGrace) {
-  for (const DuctPlan& duct : exercise.ducts) radii_m_.push_back(duct.outer_radius_m);
+  for (std::size_t i = 0; i < kClipStructures; ++i)
+    parent_radius_m_[i] = exercise.ducts[kClipStructures + i].outer_radius_m;
 }
 
 void ClipTask::begin(EventLog& log) {
@@ -114,10 +113,8 @@ ClipTask::Told ClipTask::fault_of(const DuctMark& clip) const {
     if (beside && std::abs(other.mark.arc_m - clip.arc_m) - rules_.clip_width_m < rules_.clip_gap_m)
       return {"Too near to the other clip", "Leave a gap between them."};
   }
-  const Vec3 at = place_along(paths_T_[duct], clip.arc_m).point_T;
-  for (std::size_t d = kClipStructures; d < paths_T_.size(); ++d)
-    if (distance_to_path(paths_T_[d], at) - radii_m_[d] - rules_.clip_width_m / 2 < rules_.spared_m)
-      return {"Too near to what must be spared", "Keep the clip further from the large vessel."};
+  if (clip.arc_m - parent_radius_m_[duct] - rules_.clip_width_m / 2 < rules_.spared_m)
+    return {"Too near to what must be spared", "Keep the clip further from the large vessel."};
   if (nearest_free(clip, done_) < 0) return {"More clips than are needed", "Two where it comes from, one beyond."};
   return {};
 }
@@ -250,13 +247,9 @@ void ClipTask::describe(const TaskInput& input, DirectorStatus& status) const {
   if (finished()) return;
   const ClipAim aim = clip_aim(asked_);
   const Target& target = targets_[static_cast<std::size_t>(asked_)];
-  status.demand = {target.centre_T,
-                   target.normal_T,
-                   target.radius_m,
-                   true,
-                   target.R_TI,
-                   rules_.angle_rad,
-                   {rules_.pull_low_n, rules_.pull_high_n}};
+  status.demand = {target.centre_T, target.normal_T,  target.radius_m,
+                   false,  // no dials: how the jaws lie is to be seen
+                   target.R_TI,     rules_.angle_rad, {rules_.pull_low_n, rules_.pull_high_n}};
   status.demand.goal_T = target.centre_T - rules_.tips_beyond_m * target.normal_T;
   constexpr InstrumentKind kInstrument[] = {InstrumentKind::kGrasper, InstrumentKind::kClipApplier,
                                             InstrumentKind::kScissors};

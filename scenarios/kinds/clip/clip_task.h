@@ -17,6 +17,7 @@
 // Deterministic. Thread: the tissue task's.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <span>
 #include <string>
@@ -66,8 +67,7 @@ class ClipTask final : public ExerciseTask {
   ClipRules rules_;
   std::vector<InstrumentKind> instruments_;
   std::vector<Target> targets_;
-  std::vector<std::vector<Vec3>> paths_T_;
-  std::vector<double> radii_m_;
+  std::array<double, kClipStructures> parent_radius_m_{};  ///< of what each comes from
   std::string display_;
   HoldTimer naming_, astray_;
   std::bitset<kClipAims> done_, spent_;
