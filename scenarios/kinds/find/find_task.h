@@ -1,15 +1,15 @@
 // Lift and find: the flap is taken at the lit place, lifted until the symbol beneath is to be seen, held so with a
 // wanted pull while it is read, let down; then the symbol is told in one of the balls beside.
 //
-// Lifted is what the tip holds, by its turn about the hinge, unless the flap is folded up: then the tip is nearer to the
-// hinge than nine tenths of the way at which the place lies. The symbol is to be seen from the wanted angle on, and the
-// hold counts the time in which it is, together; while clutch or port stand the instrument still no time counts. Jaws
-// that hold the flap tell nothing, nor does the ball of the last answer until the tip has left it. What is told before
-// the hold is complete is wrong, whatever was seen; one answer a pin. Events: TARGET_LIT; TISSUE_TAKEN (grip, N),
-// REGRASP after the first; EXPOSED (s since lit) each time that the symbol comes to be seen, COVERED (m of lift) when
-// it no longer is though it is held; TARGET_TOUCHED with the first EXPOSED, from when on the pull is judged; SLIP (m);
-// LET_GO (m of lift) before it lies down; TARGET_HELD (s since lit); ANSWERED or WRONG_ANSWER (s since lit). Frame T,
-// SI units. Deterministic. Thread: the tissue task's.
+// Lifted is what the tip holds, by its turn about the hinge, unless the flap is folded up: then the tip is nearer to
+// the hinge than nine tenths of the way at which the place lies. The symbol is to be seen from the wanted angle on, and
+// the hold counts the time in which it is, together; while clutch or port stand the instrument still no time counts.
+// Jaws that hold the flap tell nothing, nor does the ball of the last answer until the tip has left it. What is told
+// before the hold is complete is wrong, whatever was seen; one answer a pin. Events: TARGET_LIT; TISSUE_TAKEN (grip,
+// N), REGRASP after the first; EXPOSED (s since lit) each time that the symbol comes to be seen, COVERED (m of lift)
+// when it no longer is though it is held; TARGET_TOUCHED with the first EXPOSED, from when on the pull is judged; SLIP
+// (m); LET_GO (m of lift) before it lies down; TARGET_HELD (s since lit); ANSWERED or WRONG_ANSWER (s since lit). Frame
+// T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <vector>
