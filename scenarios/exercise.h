@@ -39,8 +39,7 @@ enum class ExerciseKind : std::uint8_t {
   kRetract,
   kPegs,
   kFind,
-  kClip,
-  kDissect
+  kClip
 };
 
 /// What only one kind has, of the whole exercise or of a level: its room, scenarios/kinds/<kind>/<kind>_rules.h,

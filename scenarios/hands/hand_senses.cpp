@@ -39,9 +39,6 @@ HandJob task_of(const Percept& percept) {
     case Cue::kClip:
     case Cue::kSever:
       return {HandJob::Kind::kClips, percept.target_index};
-    case Cue::kHook:
-    case Cue::kSeal:
-      return {HandJob::Kind::kBurn, percept.target_index};
     case Cue::kNone:
       break;
   }

@@ -35,7 +35,6 @@ struct HandJob {
     kLift,
     kAnswer,
     kClips,
-    kBurn,
     kFinished
   } kind = Kind::kNothing;
   static constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kFinished) + 1;

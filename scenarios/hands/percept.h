@@ -17,7 +17,7 @@ namespace trocar {
 /// the target, bring it there, set it down there. kSearch: feel for what is hidden, mark it by a long pinch. kTake,
 /// kLift, kLower: take tissue at the target, lift it towards the goal and hold it there, let it down. kRead: read the
 /// symbol that is to be seen and tell it by touching its like. kClip, kSever: set a clip across what runs through the
-/// target, divide it there. kHook: take the strand at the target on the hook and burn it. kSeal: stop the bleeding.
+/// target, divide it there.
 enum class Cue : std::uint8_t {
   kNone,
   kWait,
@@ -36,9 +36,7 @@ enum class Cue : std::uint8_t {
   kLower,
   kRead,
   kClip,
-  kSever,
-  kHook,
-  kSeal
+  kSever
 };
 
 /// An object that the exercise is about, as it is seen on the screen.

@@ -51,29 +51,25 @@ inline constexpr EventType kTissueTaken{"TISSUE_TAKEN"}, kExposed{"EXPOSED"}, kC
 // Pegs
 inline constexpr EventType kBump{"BUMP"};
 // Find
-inline constexpr EventType kSymbolSeen{"SYMBOL_SEEN"}, kAnswered{"ANSWERED"}, kWrongAnswer{"WRONG_ANSWER"};
+inline constexpr EventType kAnswered{"ANSWERED"}, kWrongAnswer{"WRONG_ANSWER"};
 // Clip
 inline constexpr EventType kNamed{"NAMED"}, kClipSet{"CLIP_SET"}, kClipWasted{"CLIP_WASTED"},
     kWrongStructure{"WRONG_STRUCTURE"}, kDivided{"DIVIDED"}, kCutTooSoon{"CUT_TOO_SOON"};
-// Dissect
-inline constexpr EventType kStrandLifted{"STRAND_LIFTED"}, kStrandDivided{"STRAND_DIVIDED"}, kUnsafeFire{"UNSAFE_FIRE"},
-    kSpurts{"SPURTS"}, kSealed{"SEALED"}, kPerforated{"PERFORATED"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 
 /// All of them.
 inline constexpr EventType kAll[] = {
-    kStart,         kDone,        kTimeout,        kDeadmanOpen,   kDeviceFault,    kExcessForce,  kCriticalForce,
-    kToolCollision, kDeviceLimit, kClutch,         kPortHold,      kInstrumentFree, kCut,          kTear,
-    kClip,          kRefused,     kBleeding,       kBurn,          kNeedle,         kPuncture,     kStitch,
-    kThrow,         kTargetLit,   kTargetHeld,     kTargetTouched, kWrongPlace,     kGripTouched,  kGripExcess,
-    kGripHeld,      kGripOffered, kPositionError,  kAngleError,    kTargetTimeout,  kRegrasp,      kLifted,
-    kSetDown,       kSlip,        kCrush,          kDrop,          kPlaced,         kMisplaced,    kLost,
-    kGrasped,       kWrongBlock,  kRemoved,        kWallContact,   kHorizonLost,    kHorizonKept,  kViewJerks,
-    kWireTouched,   kRingOff,     kNoduleFound,    kFalseMark,     kSearchEnded,    kTissueTaken,  kExposed,
-    kCovered,       kLetGo,       kBump,           kSymbolSeen,    kAnswered,       kWrongAnswer,  kNamed,
-    kClipSet,       kClipWasted,  kWrongStructure, kDivided,       kCutTooSoon,     kStrandLifted, kStrandDivided,
-    kUnsafeFire,    kSpurts,      kSealed,         kPerforated,    kMarked,         kMessage};
+    kStart,         kDone,           kTimeout,       kDeadmanOpen,   kDeviceFault,    kExcessForce, kCriticalForce,
+    kToolCollision, kDeviceLimit,    kClutch,        kPortHold,      kInstrumentFree, kCut,         kTear,
+    kClip,          kRefused,        kBleeding,      kBurn,          kNeedle,         kPuncture,    kStitch,
+    kThrow,         kTargetLit,      kTargetHeld,    kTargetTouched, kWrongPlace,     kGripTouched, kGripExcess,
+    kGripHeld,      kGripOffered,    kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
+    kSetDown,       kSlip,           kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
+    kGrasped,       kWrongBlock,     kRemoved,       kWallContact,   kHorizonLost,    kHorizonKept, kViewJerks,
+    kWireTouched,   kRingOff,        kNoduleFound,   kFalseMark,     kSearchEnded,    kTissueTaken, kExposed,
+    kCovered,       kLetGo,          kBump,          kAnswered,      kWrongAnswer,    kNamed,       kClipSet,
+    kClipWasted,    kWrongStructure, kDivided,       kCutTooSoon,    kMarked,         kMessage};
 
 }  // namespace event_type
 }  // namespace trocar
