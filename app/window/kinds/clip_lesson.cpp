@@ -17,7 +17,6 @@ std::vector<LessonStep> clip_steps(const Translator& w, const Exercise& e, const
 
 void add_clip_limits(const Translator& w, const Exercise& e, const ExerciseLevel&, std::vector<LessonLimit>& out) {
   const ClipRules& rules = own_rules<ClipRules>(e);
-  out.push_back({w("Between two clips"), millimetres(w, rules.clip_gap_m)});
   out.push_back({w("From the large vessels"), millimetres(w, rules.spared_m)});
   out.push_back({w("Between clip and cut"), millimetres(w, rules.cut_gap_m)});
 }
