@@ -16,7 +16,7 @@ std::vector<LessonStep> find_steps(const Translator& w, const Exercise& e, const
       {StepIcon::kWithdraw, w("Swing the flap up and back until the pin beneath it shows its symbol.")},
       {StepIcon::kHold, w("Hold it so for {0} s with a pull of {1}, and read the symbol.",
                           {brief(w, e.hold_s), newtons_between(w, level.band_low_n, level.band_high_n)})},
-      {StepIcon::kReach, w("Keep the tip in the ball with the same symbol for {0} s. An answer before that is wrong.",
+      {StepIcon::kPress, w("Keep the tip in the ball with the same symbol for {0} s. An answer before that is wrong.",
                            {brief(w, rules.answer_hold_s)})}};
 }
 
