@@ -16,7 +16,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kMargin = 16, kBriefingGap = 10, kBriefingHead = 92, kIcon = 40, kLargeIcon = 66, kLimits = 290,
+constexpr double kMargin = 16, kBriefingGap = 10, kBriefingHead = 92, kIcon = 40, kLargeIcon = 66, kLimits = 275,
                  kStage = 158;
 
 bool compact(const Ui& ui) { return ui.width() < ui.px(1150) || ui.height() < ui.px(690); }

@@ -98,7 +98,7 @@ TEST(GraspCheats, RegraspLoopsOnlyCost) {
   const Grade grade = bench.grade();
   EXPECT_EQ(value_of(grade.metrics, "block_regrasps"), 3.0);
   EXPECT_EQ(value_of(grade.metrics, "objects_done_share"), 1.0);
-  EXPECT_LE(grade.score.value(), honest().score.value() - 100 * 0.10 * 3 / 4 + 1e-9);
+  EXPECT_LE(grade.score.value(), honest().score.value() - 100 * 0.15 * 3 / 4 + 1e-9);
 }
 
 TEST(GraspCheats, TakingAPlacedBlockOutAndBackCountsItOnce) {
