@@ -7,17 +7,6 @@ namespace {
 
 constexpr double kTellingLift = 0.030;  // m of a block's middle over the board: well in the air
 
-/// The grip on the lit block. Where no colour tells the foam, the bar does not either: it then spans all kinds.
-std::vector<ForceBar> block_bar(const SessionView& view) {
-  const ExerciseLevel& level = view.scene.level;
-  const DirectorStatus& status = view.director.status();
-  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
-  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, status.demand.band, *limits.grip_n);
-  grip.hidden = !status.force_shown;
-  grip.hidden_note = hidden_note(level.force_display);
-  return {grip};
-}
-
 Eigen::AlignedBox3d board_work(const Scene& scene) {
   Eigen::AlignedBox3d box;
   if (!scene.board.rigid.board) return box;
@@ -46,7 +35,7 @@ KindPicture grasp_picture() {
                 return std::vector<HudRow>{{"Blocks placed", targets_done(scene, status), ""},
                                            {"Errors", std::to_string(status.wrong_places), "x"}};
               },
-          .bars = block_bar,
+          .bars = grip_of_lit_object,
           .add_objects = [](const SessionView&, std::vector<SceneObject>&) {},
           .work = board_work,
           .telling = carries_high};

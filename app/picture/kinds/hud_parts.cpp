@@ -37,6 +37,16 @@ std::string hidden_note(const std::string& display) {
   return display == "after" ? "shown after the run" : "shown only outside the limits";
 }
 
+std::vector<ForceBar> grip_of_lit_object(const SessionView& view) {
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
+  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, status.demand.band, *limits.grip_n);
+  grip.hidden = !status.force_shown;
+  grip.hidden_note = hidden_note(level.force_display);
+  return {grip};
+}
+
 std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip_band) {
   const ExerciseLevel& level = view.scene.level;
   const DirectorStatus& status = view.director.status();

@@ -19,6 +19,9 @@ HudRow hold_row(const DirectorStatus& status);
 ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n);
 /// Of tissue that is held: its pull, and the grip on it.
 std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip);
+/// On the lit object, as far as the level shows it. Where no colour tells the foam, the bar does not either: it then
+/// spans all kinds.
+std::vector<ForceBar> grip_of_lit_object(const SessionView& view);
 /// Why a bar is hidden. @param display of the level: band | after.
 std::string hidden_note(const std::string& display);
 

@@ -18,16 +18,6 @@ void add_peg_goal(const SessionView& view, std::vector<SceneObject>& out) {
   out.push_back(ghost);
 }
 
-std::vector<ForceBar> ring_bar(const SessionView& view) {
-  const ExerciseLevel& level = view.scene.level;
-  const DirectorStatus& status = view.director.status();
-  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
-  ForceBar grip = force_bar("Grip force", view.record.stylus.grip_force_n, status.demand.band, *limits.grip_n);
-  grip.hidden = !status.force_shown;
-  grip.hidden_note = hidden_note(level.force_display);
-  return {grip};
-}
-
 Eigen::AlignedBox3d pegs_work(const Scene& scene) {
   Eigen::AlignedBox3d box;
   for (const PegPost& peg : scene.board.rigid.pegs) {
@@ -57,7 +47,7 @@ KindPicture pegs_picture() {
                 return std::vector<HudRow>{{"Rings moved", targets_done(scene, status), ""},
                                            {"Errors", std::to_string(status.wrong_places), "x"}};
               },
-          .bars = ring_bar,
+          .bars = grip_of_lit_object,
           .add_objects = add_peg_goal,
           .work = pegs_work,
           .telling = carries_over_pegs};
