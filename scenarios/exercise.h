@@ -39,7 +39,10 @@ enum class ExerciseKind : std::uint8_t {
   kRetract,
   kPegs,
   kFind,
-  kClip
+  kClip,
+  kGauze,
+  kNeedle,
+  kDissect
 };
 
 /// What only one kind has, of the whole exercise or of a level: its room, scenarios/kinds/<kind>/<kind>_rules.h,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -19,6 +20,9 @@ inline constexpr int kMaxClipsSeen = 32;
 inline constexpr int kMaxDropsSeen = 64;
 inline constexpr int kMaxFollowedPlaces = 32;
 inline constexpr int kMaxDuctMarks = 24;
+inline constexpr int kMaxBitesSeen = 4;
+inline constexpr int kMaxSheetCutsSeen = 16;
+inline constexpr int kMaxWoundsSeen = 16;
 
 enum class ObjectMotion : std::uint8_t { kResting, kMoving, kHeld };
 
@@ -91,6 +95,36 @@ struct SutureState {
   bool operator==(const SutureState&) const = default;
 };
 
+/// A way of the needle through tissue, by places of that at rest.
+struct NeedleBite {
+  std::int32_t number = -1;  ///< that no other has
+  Vec3 entry_rest_T = Vec3::Zero(), end_rest_T = Vec3::Zero();
+  Vec3 entry_along_T = Vec3::UnitZ();  ///< unit: the needle's way where it went in, as it went
+  bool through = false;                ///< its point has come out at the end
+  double load_n = 0;                   ///< across the needle, now
+};
+
+/// The needle as it lies, and what it is in.
+struct NeedleSight {
+  bool there = false;
+  Pose X_TN;              ///< of thin/needle_shape.h
+  double held_share = 0;  ///< of its length, from the swage, where jaws hold it
+  std::int32_t bite_count = 0;
+  std::array<NeedleBite, kMaxBitesSeen> bite;
+};
+
+/// One closing of blades on a sheet: their edge, by places of the sheet as it was drawn.
+struct SheetCutSeen {
+  std::int32_t sheet = 0;  ///< index in the scene
+  Vec3 from_rest_T = Vec3::Zero(), to_rest_T = Vec3::Zero();
+};
+
+struct WoundSeen {
+  Vec3 place_T = Vec3::Zero();
+  double rate_ml_per_min = 0, lost_ml = 0;
+  std::int32_t open_vessels = 0;
+};
+
 /// A place on the organ, such as the middle of a disc.
 struct SurfacePlace {
   Vec3 point_T = Vec3::Zero(), normal_T = Vec3::UnitZ();
@@ -98,7 +132,7 @@ struct SurfacePlace {
 
 /// A clip that is on a duct or vessel, or a place where that is cut or torn through, or nicked.
 struct DuctMark {
-  enum class Kind : std::uint8_t { kClip, kCut, kTorn, kNick } kind = Kind::kClip;
+  enum class Kind : std::uint8_t { kClip, kCut, kTorn, kNick, kSealed } kind = Kind::kClip;
   std::int32_t duct = 0;    ///< index in the scene
   double arc_m = 0;         ///< along it, from where its content comes; stays the same however it lies
   double share = 1;         ///< of its width that is shut or open
@@ -141,6 +175,14 @@ struct TissueFrame {
   std::int32_t touched_duct = -1;
   /// Where the contact that bears most lies on an organ that gives way, at rest; nothing: none does there.
   std::optional<Vec3> touched_rest_T;
+
+  NeedleSight needle;
+  std::int32_t sheet_cut_count = 0;                       ///< so far, of which the newest are told:
+  std::array<SheetCutSeen, kMaxSheetCutsSeen> sheet_cut;  ///< the n-th lies at n modulo kMaxSheetCutsSeen
+  double sheet_pull_n = 0;                                ///< of jaws or blades on a sheet
+  std::int32_t wound_count = 0;
+  std::array<WoundSeen, kMaxWoundsSeen> wound;
+  double tip_gap_m = INFINITY;  ///< from the instrument's tip to the organ's surface; where none gives way, infinite
 
   bool held() const { return grip == GripState::kHolding || grip == GripState::kSlipping; }
 };

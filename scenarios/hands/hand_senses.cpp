@@ -39,6 +39,15 @@ HandJob task_of(const Percept& percept) {
     case Cue::kClip:
     case Cue::kSever:
       return {HandJob::Kind::kClips, percept.target_index};
+    case Cue::kSnip:
+      return {HandJob::Kind::kSnips, -1};
+    case Cue::kTakeNeedle:
+    case Cue::kDrive:
+    case Cue::kPull:
+      return {HandJob::Kind::kSewing, percept.target_index};
+    case Cue::kHook:
+    case Cue::kSeal:
+      return {HandJob::Kind::kHooking, percept.target_index};
     case Cue::kNone:
       break;
   }

@@ -35,6 +35,9 @@ struct HandJob {
     kLift,
     kAnswer,
     kClips,
+    kSnips,
+    kSewing,
+    kHooking,
     kFinished
   } kind = Kind::kNothing;
   static constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kFinished) + 1;

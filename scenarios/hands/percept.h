@@ -17,7 +17,9 @@ namespace trocar {
 /// the target, bring it there, set it down there. kSearch: feel for what is hidden, mark it by a long pinch. kTake,
 /// kLift, kLower: take tissue at the target, lift it towards the goal and hold it there, let it down. kRead: read the
 /// symbol that is to be seen and tell it by touching its like. kClip, kSever: set a clip across what runs through the
-/// target, divide it there.
+/// target, divide it there. kSnip: cut along the line from the target towards the goal. kTakeNeedle: grasp the needle,
+/// which is the object; kDrive: drive it in at the target and out at the goal; kPull: draw it through. kHook: lift the
+/// strand at the target on the hook towards the goal and divide it; kSeal: coagulate what bleeds at the target.
 enum class Cue : std::uint8_t {
   kNone,
   kWait,
@@ -36,7 +38,13 @@ enum class Cue : std::uint8_t {
   kLower,
   kRead,
   kClip,
-  kSever
+  kSever,
+  kSnip,
+  kTakeNeedle,
+  kDrive,
+  kPull,
+  kHook,
+  kSeal
 };
 
 /// An object that the exercise is about, as it is seen on the screen.

@@ -55,6 +55,15 @@ inline constexpr EventType kAnswered{"ANSWERED"}, kWrongAnswer{"WRONG_ANSWER"};
 // Clip
 inline constexpr EventType kNamed{"NAMED"}, kClipSet{"CLIP_SET"}, kClipWasted{"CLIP_WASTED"},
     kWrongStructure{"WRONG_STRUCTURE"}, kDivided{"DIVIDED"}, kCutTooSoon{"CUT_TOO_SOON"};
+// Gauze
+inline constexpr EventType kSnip{"SNIP"}, kOffLine{"OFF_LINE"}, kPulledHard{"PULLED_HARD"}, kGauzeTorn{"GAUZE_TORN"};
+// Needle
+inline constexpr EventType kNeedleGripped{"NEEDLE_GRIPPED"}, kBiteBegun{"BITE_BEGUN"}, kBiteThrough{"BITE_THROUGH"},
+    kBiteUndone{"BITE_UNDONE"}, kNeedleDrawn{"NEEDLE_DRAWN"}, kNeedleLost{"NEEDLE_LOST"};
+// Dissect
+inline constexpr EventType kStrandLifted{"STRAND_LIFTED"}, kStrandDivided{"STRAND_DIVIDED"},
+    kCurrentUsed{"CURRENT_USED"}, kUnsafeCurrent{"UNSAFE_CURRENT"}, kSpurts{"SPURTS"}, kSealed{"SEALED"},
+    kSealedLate{"SEALED_LATE"}, kPerforated{"PERFORATED"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 
@@ -69,7 +78,10 @@ inline constexpr EventType kAll[] = {
     kGrasped,       kWrongBlock,     kRemoved,       kWallContact,   kHorizonLost,    kHorizonKept, kViewJerks,
     kWireTouched,   kRingOff,        kNoduleFound,   kFalseMark,     kSearchEnded,    kTissueTaken, kExposed,
     kCovered,       kLetGo,          kBump,          kAnswered,      kWrongAnswer,    kNamed,       kClipSet,
-    kClipWasted,    kWrongStructure, kDivided,       kCutTooSoon,    kMarked,         kMessage};
+    kClipWasted,    kWrongStructure, kDivided,       kCutTooSoon,    kSnip,           kOffLine,     kPulledHard,
+    kGauzeTorn,     kNeedleGripped,  kBiteBegun,     kBiteThrough,   kBiteUndone,     kNeedleDrawn, kNeedleLost,
+    kStrandLifted,  kStrandDivided,  kCurrentUsed,   kUnsafeCurrent, kSpurts,         kSealed,      kSealedLate,
+    kPerforated,    kMarked,         kMessage};
 
 }  // namespace event_type
 }  // namespace trocar
