@@ -8,12 +8,10 @@
 namespace trocar {
 namespace {
 
-constexpr double kUpFrom = 0.002, kDownUntil = 0.0005;  // m under a held block: off the board, on it again
-constexpr double kSlipFrom = 0.001;                     // m of creep that count as a slip
-constexpr double kLiftShort = 0.001;                    // m that a lift may fall short
-constexpr double kGraspToastTime = 1.5;                 // s
-constexpr double kPushedOut = 0.001;                    // m beyond the tolerance that undo a placing
-constexpr double kTouched = 0.05;                       // N
+constexpr double kLiftShort = 0.001;     // m that a lift may fall short
+constexpr double kGraspToastTime = 1.5;  // s
+constexpr double kPushedOut = 0.001;     // m beyond the tolerance that undo a placing
+constexpr double kTouched = 0.05;        // N
 
 /// Height of the lowest corner over the board.
 double clearance(const ObjectState& object) {
@@ -61,7 +59,6 @@ void GraspTask::update(const TaskInput& input, EventLog& log) {
 void GraspTask::follow_grip(const TissueFrame& frame, std::int32_t index, double grip_n, EventLog& log) {
   Block& block = blocks_[static_cast<std::size_t>(index)];
   const ObjectState& object = frame.object[static_cast<std::size_t>(index)];
-  const bool held = frame.held() && frame.grip_object == index;
   if (object.crushed && !block.crushed) {
     block.crushed = true;
     const bool critical = ++crushed_ == rules_.critical_crushed;
@@ -70,23 +67,17 @@ void GraspTask::follow_grip(const TissueFrame& frame, std::int32_t index, double
     toast_s_ = 0;
     ++errors_;
   }
-  if (held && !block.held) {
-    log.add(block.grasped ? event_type::kRegrasp : event_type::kGrasped,
-            block.grasped ? Severity::kMinor : Severity::kInfo, index, grip_n, "N");
-    if (index != lit_) log.add(event_type::kWrongBlock, Severity::kMinor, index);
-    block.grasped = true;
-    block.dropped = block.slipping = block.up = false;
-    block.highest_m = block.slip_from_m = 0;
+  using Change = CarryWatch::Change;
+  const Change change = block.carry.update(frame, index, index, index == lit_, clearance(object), grip_n, log);
+  if (change == Change::kTaken) {
+    block.dropped = false;
     if (block.placed) take_out(index, log);
   }
-  if (!held && block.held) {
-    if (block.up) log.add(event_type::kSetDown, Severity::kInfo, index, clearance(object), "m");
-    block.up = false;
-    block.judged = false;
-    block.let_go_z_m = object.X_TO.p.z();
+  if (change == Change::kLetGo) block.judged = false;
+  if (change == Change::kSlips) {
+    toast_ = "It slips - hold it tighter";
+    toast_s_ = 0;
   }
-  block.held = held;
-  if (held) follow_carry(frame, index, log);
 }
 
 void GraspTask::take_out(std::int32_t index, EventLog& log) {
@@ -96,28 +87,6 @@ void GraspTask::take_out(std::int32_t index, EventLog& log) {
   log.add(event_type::kRemoved, Severity::kMinor, index);
 }
 
-void GraspTask::follow_carry(const TissueFrame& frame, std::int32_t index, EventLog& log) {
-  Block& block = blocks_[static_cast<std::size_t>(index)];
-  const double height = clearance(frame.object[static_cast<std::size_t>(index)]);
-  block.highest_m = std::max(block.highest_m, height);
-  if (!block.up && height > kUpFrom) {
-    block.up = true;
-    log.add(event_type::kLifted, Severity::kInfo, index, height, "m");
-  } else if (block.up && height < kDownUntil) {
-    block.up = false;
-    log.add(event_type::kSetDown, Severity::kInfo, index, height, "m");
-  }
-  if (frame.grip != GripState::kSlipping) {
-    block.slipping = false;
-    block.slip_from_m = frame.slipped_m;
-  } else if (!block.slipping && frame.slipped_m - block.slip_from_m > kSlipFrom) {
-    block.slipping = true;
-    log.add(event_type::kSlip, Severity::kMinor, index, frame.slipped_m - block.slip_from_m, "m");
-    toast_ = "It slips - hold it tighter";
-    toast_s_ = 0;
-  }
-}
-
 void GraspTask::follow_free(const ObjectState& object, std::int32_t index, EventLog& log) {
   Block& block = blocks_[static_cast<std::size_t>(index)];
   if (block.placed) {  // pushed out by something
@@ -125,8 +94,8 @@ void GraspTask::follow_free(const ObjectState& object, std::int32_t index, Event
     if ((object.X_TO.p - ring.centre_T).head<2>().norm() > ring.radius_m + kPushedOut) take_out(index, log);
     return;
   }
-  if (block.held || block.judged) return;
-  const double fallen = block.let_go_z_m - object.X_TO.p.z();
+  if (block.carry.held() || block.judged) return;
+  const double fallen = block.carry.let_go_z_m() - object.X_TO.p.z();
   if (!block.dropped && fallen > rules_.drop_m) {
     block.dropped = true;
     ++errors_;
@@ -157,14 +126,15 @@ void GraspTask::judge_rest(const ObjectState& object, std::int32_t index, EventL
   const Vec3 middle = object.X_TO.p;
   const Target& ring = rings_[static_cast<std::size_t>(index)];
   const double off = (middle - ring.centre_T).head<2>().norm();
-  const bool lifted = block.highest_m > rules_.lift_m - kLiftShort;
+  const bool lifted = block.carry.highest_m() > rules_.lift_m - kLiftShort;
   const bool stands = middle.z() < rules_.block_m.z();  // on the board, on whichever side, and not on another block
   if (lifted && !block.dropped && stands && off <= ring.radius_m) {
     block.placed = true;
     ++done_;
     return log.add(event_type::kPlaced, Severity::kInfo, index, off, "m");
   }
-  if (block.highest_m > kUpFrom && !block.dropped) log.add(event_type::kMisplaced, Severity::kMinor, index, off, "m");
+  if (block.carry.highest_m() > kCarriedFrom && !block.dropped)
+    log.add(event_type::kMisplaced, Severity::kMinor, index, off, "m");
   if (off <= ring.radius_m && !lifted && !block.dropped) {
     toast_ = "Lift it higher on the way";
     toast_s_ = 0;
@@ -175,11 +145,11 @@ void GraspTask::describe_message(double grip_n, DirectorStatus& status) const {
   const Block& block = blocks_[static_cast<std::size_t>(lit_)];
   if (toast_s_ < kGraspToastTime) return say(status, toast_, "Block " + std::to_string(lit_ + 1) + ".", true);
   const WantedForce band = rings_[static_cast<std::size_t>(lit_)].band;
-  if (block.held && block.up && grip_n > band.high_n && display_ != "after")
+  if (block.carry.held() && block.carry.up() && grip_n > band.high_n && display_ != "after")
     return say(status, "A little softer", "Hold it with " + band_text(band) + ".");
-  if (block.held && block.up && grip_n < band.low_n && display_ != "after")
+  if (block.carry.held() && block.carry.up() && grip_n < band.low_n && display_ != "after")
     return say(status, "A little tighter", "Hold it with " + band_text(band) + ".");
-  if (!block.held) {
+  if (!block.carry.held()) {
     const std::string count = std::to_string(done_ + 1) + " of " + std::to_string(blocks_.size());
     return say(status, "Pick up the lit block", "Block " + count + ".");
   }
@@ -210,9 +180,9 @@ void GraspTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.cue = Cue::kPick;
   if (input.tissue && lit_ < input.tissue->object_count) {
     const ObjectState& object = input.tissue->object[index];
-    demand.object = {object.X_TO, object.size_m, block.held && input.tissue->grip == GripState::kSlipping};
+    demand.object = {object.X_TO, object.size_m, block.carry.held() && input.tissue->grip == GripState::kSlipping};
     const double off = (object.X_TO.p - ring.centre_T).head<2>().norm();
-    if (block.held) status.cue = off <= ring.radius_m ? Cue::kPlace : Cue::kCarry;
+    if (block.carry.held()) status.cue = off <= ring.radius_m ? Cue::kPlace : Cue::kCarry;
   }
   demand.centre_T = status.cue == Cue::kPick ? demand.object.X_TO.p : ring.centre_T;
   const double grip = input.stylus.grip_force_n;

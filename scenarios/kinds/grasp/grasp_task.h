@@ -1,19 +1,17 @@
 // Limited grasp: the lit block is picked, lifted, carried over and set down within its ring.
 //
-// Events, value in brackets: TARGET_LIT; GRASPED [N], REGRASP [N] when a block is grasped again, WRONG_BLOCK when it is
-// not the lit one; LIFTED [m] off the board and SET_DOWN [m] on it again: the carry between them is where the grip is
-// judged; SLIP [m], CRUSH [N], DROP [m] when a block falls; PLACED [m off the ring's centre] when it rests within its
-// ring after it was lifted high enough and set down, not dropped; MISPLACED [m] when it rests elsewhere after a carry;
-// REMOVED when a placed block leaves its ring again; LOST [m], critical, when it rests too far outside the board: it is
-// not asked for again, and the attempt never counts as finished. A critical number of crushed blocks makes the last
-// CRUSH critical. Frame T, SI units. Deterministic. Thread: the tissue task's.
+// Events beside those of the carry (director/carry_watch.h), value in brackets: TARGET_LIT; CRUSH [N], DROP [m] when a
+// block falls; PLACED [m off the ring's centre] when it rests within its ring after it was lifted high enough and set
+// down, not dropped; MISPLACED [m] when it rests elsewhere after a carry; REMOVED when a placed block leaves its ring
+// again; LOST [m], critical, when it rests too far outside the board: it is not asked for again, and the attempt never
+// counts as finished. A critical number of crushed blocks makes the last CRUSH critical. Frame T, SI units.
+// Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <vector>
 
-#include "scenarios/director/exercise_task.h"
+#include "scenarios/director/carry_watch.h"
 #include "scenarios/kinds/grasp/grasp_rules.h"
-#include "tissue/tissue_frame.h"
 
 namespace trocar {
 
@@ -29,21 +27,15 @@ class GraspTask final : public ExerciseTask {
  private:
   /// What has become of one block.
   struct Block {
-    bool grasped = false, crushed = false, placed = false, lost = false;
-    bool held = false;       ///< by the jaws now
-    bool up = false;         ///< off the board in the jaws
-    bool judged = true;      ///< its last letting go has been judged
-    bool dropped = false;    ///< it fell since it was grasped last
-    double highest_m = 0;    ///< under its lowest corner, since it was grasped last
-    double let_go_z_m = 0;   ///< of its middle
-    double slip_from_m = 0;  ///< slipped so far when the present slip began
-    bool slipping = false;
+    CarryWatch carry = {};  ///< heights of its lowest corner over the board
+    bool crushed = false, placed = false, lost = false;
+    bool judged = true;    ///< its last letting go has been judged
+    bool dropped = false;  ///< it fell since it was grasped last
   };
   bool gone(std::int32_t index) const;
   void light_next(EventLog& log);
   void follow_grip(const TissueFrame& frame, std::int32_t index, double grip_n, EventLog& log);
   void take_out(std::int32_t index, EventLog& log);
-  void follow_carry(const TissueFrame& frame, std::int32_t index, EventLog& log);
   void follow_free(const ObjectState& object, std::int32_t index, EventLog& log);
   bool has_left(const ObjectState& object, std::int32_t index, EventLog& log);
   void judge_rest(const ObjectState& object, std::int32_t index, EventLog& log);

@@ -8,8 +8,6 @@
 namespace trocar {
 namespace {
 
-constexpr double kRingUpFrom = 0.002, kRingDownUntil = 0.0005;  // m over where it was grasped: off it, on it again
-constexpr double kRingSlipFrom = 0.001;                         // m of creep that count as a slip
 constexpr double kMarkEnds = 0.9;      // of the grip that leaves a mark: below, the next one is another
 constexpr double kPegToastTime = 1.5;  // s
 constexpr double kMeets = 0.0003;      // m under a peg's top: the ring is on it or past it
@@ -68,54 +66,26 @@ void PegTask::warn(const char* message) {
 void PegTask::follow_grip(const TissueFrame& frame, std::int32_t index, double grip_n, EventLog& log) {
   Ring& ring = rings_[static_cast<std::size_t>(index)];
   const ObjectState& object = frame.object[static_cast<std::size_t>(index)];
-  const bool held = frame.held() && frame.grip_object == index;
   const std::int32_t transfer = transfer_of(index);
-  if (held && !ring.held) {
-    log.add(ring.grasped ? event_type::kRegrasp : event_type::kGrasped,
-            ring.grasped ? Severity::kMinor : Severity::kInfo, transfer, grip_n, "N");
-    if (index != lit_ % rings()) log.add(event_type::kWrongBlock, Severity::kMinor, transfer);
-    ring.grasped = true;
-    ring.slipping = ring.up = ring.lifted = ring.marking = false;
-    ring.slip_from_m = 0;
-    ring.from_z_m = object.X_TO.p.z();
+  const double z = object.X_TO.p.z();
+  if (CarryWatch::holds(frame, index) && !ring.carry.held()) ring.from_z_m = z;
+  using Change = CarryWatch::Change;
+  const Change change =
+      ring.carry.update(frame, index, transfer, index == lit_ % rings(), z - ring.from_z_m, grip_n, log);
+  if (change == Change::kTaken) {
+    ring.marking = false;
     ring.over = peg_under(object);
   }
-  if (!held && ring.held) {
-    if (ring.up) log.add(event_type::kSetDown, Severity::kInfo, transfer, object.X_TO.p.z() - ring.from_z_m, "m");
-    ring.judged = !ring.lifted;
-    ring.up = false;
-    ring.let_go_z_m = object.X_TO.p.z();
-  }
-  ring.held = held;
-  if (!held) return;
+  if (change == Change::kLetGo) ring.judged = ring.carry.highest_m() <= kCarriedFrom;
+  if (change == Change::kSlips) warn("It slips - hold it tighter");
+  if (!ring.carry.held()) return;
   if (!ring.marking && grip_n > rules_.mark_above_n) {
     log.add(event_type::kGripExcess, Severity::kMajor, transfer, grip_n, "N");
     warn("Too tight - the ring is marked");
     ++errors_;
   }
   ring.marking = grip_n > (ring.marking ? kMarkEnds : 1) * rules_.mark_above_n;
-  follow_carry(frame, index, log);
   follow_pegs(object, index, log);
-}
-
-void PegTask::follow_carry(const TissueFrame& frame, std::int32_t index, EventLog& log) {
-  Ring& ring = rings_[static_cast<std::size_t>(index)];
-  const double height = frame.object[static_cast<std::size_t>(index)].X_TO.p.z() - ring.from_z_m;
-  if (!ring.up && height > kRingUpFrom) {
-    ring.up = ring.lifted = true;
-    log.add(event_type::kLifted, Severity::kInfo, transfer_of(index), height, "m");
-  } else if (ring.up && height < kRingDownUntil) {
-    ring.up = false;
-    log.add(event_type::kSetDown, Severity::kInfo, transfer_of(index), height, "m");
-  }
-  if (frame.grip != GripState::kSlipping) {
-    ring.slipping = false;
-    ring.slip_from_m = frame.slipped_m;
-  } else if (!ring.slipping && frame.slipped_m - ring.slip_from_m > kRingSlipFrom) {
-    ring.slipping = true;
-    log.add(event_type::kSlip, Severity::kMinor, transfer_of(index), frame.slipped_m - ring.slip_from_m, "m");
-    warn("It slips - hold it tighter");
-  }
 }
 
 /// The peg that stands under or beside the ring, no further than its sides; -1: none.
@@ -147,7 +117,7 @@ void PegTask::follow_pegs(const ObjectState& object, std::int32_t index, EventLo
 
 void PegTask::follow_free(const ObjectState& object, std::int32_t index, EventLog& log) {
   const Ring& ring = rings_[static_cast<std::size_t>(index)];
-  if (!ring.held && !ring.judged && object.motion == ObjectMotion::kResting) judge_rest(object, index, log);
+  if (!ring.carry.held() && !ring.judged && object.motion == ObjectMotion::kResting) judge_rest(object, index, log);
 }
 
 bool PegTask::has_left(const ObjectState& object, std::int32_t index, EventLog& log) {
@@ -173,11 +143,11 @@ void PegTask::judge_rest(const ObjectState& object, std::int32_t index, EventLog
       object.X_TO.p.z() < rules_.ring_height_m / 2 + kFlatOn;
   if (on_peg && off < rules_.hole_radius_m) {
     (ring.across ? ring.back : ring.across) = true;
-    ring.grasped = false;
+    ring.carry.arrive();
     ++done_;
     return log.add(event_type::kTargetHeld, Severity::kInfo, transfer, off, "m");
   }
-  const double fallen = ring.let_go_z_m - object.X_TO.p.z();
+  const double fallen = ring.carry.let_go_z_m() - object.X_TO.p.z();
   if (!on_peg && fallen > rules_.drop_m) {
     ++errors_;
     log.add(event_type::kDrop, Severity::kMajor, transfer, fallen, "m");
@@ -192,11 +162,11 @@ void PegTask::describe_message(double grip_n, DirectorStatus& status) const {
   const std::string count = std::to_string(done_ + 1) + " of " + std::to_string(goals_.size());
   if (toast_s_ < kPegToastTime) return say(status, toast_, "Ring " + count + ".", true);
   const bool told = display_ != "after";
-  if (ring.held && told && grip_n > rules_.mark_above_n)
+  if (ring.carry.held() && told && grip_n > rules_.mark_above_n)
     return say(status, "A little softer", "Hold it with " + band_text(goals_.front().band) + ".");
-  if (ring.held && ring.up && told && grip_n < rules_.slip_below_n)
+  if (ring.carry.held() && ring.carry.up() && told && grip_n < rules_.slip_below_n)
     return say(status, "A little tighter", "Hold it with " + band_text(goals_.front().band) + ".");
-  if (!ring.held) return say(status, "Take the lit ring off its peg", "Ring " + count + ".");
+  if (!ring.carry.held()) return say(status, "Take the lit ring off its peg", "Ring " + count + ".");
   if (status.cue == Cue::kPlace) return say(status, "Lower it over the peg", "Let go when it lies on the board.");
   say(status, "Carry it to the lit peg", "Lift it well clear of the pegs.");
 }
@@ -238,11 +208,12 @@ void PegTask::describe(const TaskInput& input, DirectorStatus& status) const {
     const ObjectState& object = input.tissue->object[static_cast<std::size_t>(index)];
     demand.object = seen(object, input);
     const double off = (object.X_TO.p - goal.centre_T).head<2>().norm();
-    if (rings_[static_cast<std::size_t>(index)].held) status.cue = off <= goal.radius_m ? Cue::kPlace : Cue::kCarry;
+    if (rings_[static_cast<std::size_t>(index)].carry.held())
+      status.cue = off <= goal.radius_m ? Cue::kPlace : Cue::kCarry;
   }
   demand.centre_T = status.cue == Cue::kPick ? demand.object.X_TO.p : goal.centre_T;
   const double grip = input.stylus.grip_force_n;
-  const bool holds = rings_[static_cast<std::size_t>(index)].held;
+  const bool holds = rings_[static_cast<std::size_t>(index)].carry.held();
   status.force_shown = force_shown(display_, holds && (grip < goal.band.low_n || grip > goal.band.high_n));
   describe_message(grip, status);
 }

@@ -1,20 +1,18 @@
 // Peg transfer: the lit ring is taken off its peg, carried to the lit peg and put over it; all rings across, then all
 // back, each to the peg that it came from.
 //
-// Events name the transfer, value in brackets: TARGET_LIT; GRASPED [N], REGRASP [N] when its ring is grasped again,
-// WRONG_BLOCK when another ring is; LIFTED [m] off what it stood on, SET_DOWN [m]; SLIP [m]; GRIP_EXCESS [N] each time
-// that the grip leaves a mark; BUMP [m from the peg's middle] when a carried ring comes down on a peg, or against one,
-// too far from its middle; DROP [m] when a ring falls and is on no peg then; MISPLACED [m] when it rests after a carry
-// and not on its peg; TARGET_HELD [m] when it lies on its peg, and is free: done for good; LOST [m], critical, when a
-// ring rests too far outside the board: it is not asked for again, and the attempt never counts as finished. Frame T,
-// SI units. Deterministic. Thread: the tissue task's.
+// Events name the transfer; beside those of the carry (director/carry_watch.h), value in brackets: TARGET_LIT;
+// GRIP_EXCESS [N] each time that the grip leaves a mark; BUMP [m from the peg's middle] when a carried ring comes down
+// on a peg, or against one, too far from its middle; DROP [m] when a ring falls and is on no peg then; MISPLACED [m]
+// when it rests after a carry and not on its peg; TARGET_HELD [m] when it lies on its peg, and is free: done for good;
+// LOST [m], critical, when a ring rests too far outside the board: it is not asked for again, and the attempt never
+// counts as finished. Frame T, SI units. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <vector>
 
-#include "scenarios/director/exercise_task.h"
+#include "scenarios/director/carry_watch.h"
 #include "scenarios/kinds/pegs/pegs_rules.h"
-#include "tissue/tissue_frame.h"
 
 namespace trocar {
 
@@ -31,24 +29,17 @@ class PegTask final : public ExerciseTask {
   /// What has become of one ring.
   struct Ring {
     bool across = false, back = false, lost = false;
-    bool grasped = false;  ///< in its present transfer
-    bool held = false;     ///< by the jaws now
-    bool up = false;       ///< off what it stood on, in the jaws
-    bool lifted = false;   ///< since it was grasped last
-    bool marking = false;  ///< the grip leaves a mark now
-    bool judged = true;    ///< its last letting go has been judged
-    bool slipping = false;
-    double from_z_m = 0;     ///< of its middle when it was grasped
-    double let_go_z_m = 0;   ///< of its middle
-    double slip_from_m = 0;  ///< slipped so far when the present slip began
-    int over = -1;           ///< peg on or beside which it is; none: it is free to come down on one
+    CarryWatch carry = {};  ///< heights over where it was grasped, of its present transfer
+    bool marking = false;   ///< the grip leaves a mark now
+    bool judged = true;     ///< its last letting go has been judged
+    double from_z_m = 0;    ///< of its middle when it was grasped
+    int over = -1;          ///< peg on or beside which it is; none: it is free to come down on one
   };
   std::int32_t rings() const { return static_cast<std::int32_t>(rings_.size()); }
   std::int32_t transfer_of(std::int32_t ring) const;
   bool gone(std::int32_t transfer) const;
   void light_next(EventLog& log);
   void follow_grip(const TissueFrame& frame, std::int32_t ring, double grip_n, EventLog& log);
-  void follow_carry(const TissueFrame& frame, std::int32_t ring, EventLog& log);
   void follow_pegs(const ObjectState& object, std::int32_t ring, EventLog& log);
   void follow_free(const ObjectState& object, std::int32_t ring, EventLog& log);
   bool has_left(const ObjectState& object, std::int32_t ring, EventLog& log);
