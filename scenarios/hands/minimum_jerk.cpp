@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTravelAfter = 0.6;    // share of the withdrawal after which the crossing starts
 constexpr double kDescentAfter = 0.75;  // share of the crossing after which the descent starts
+constexpr double kLeastWidth = 1e-4;    // m or rad that a person aims at: what is not told has none
 
 }  // namespace
 
@@ -18,7 +19,7 @@ double minimum_jerk(double s) {
 }
 
 double reach_time_s(double distance_m, double width_m, double speed_factor) {
-  return speed_factor * (0.12 + 0.11 * std::log2(2 * distance_m / width_m + 1));
+  return speed_factor * (0.12 + 0.11 * std::log2(2 * distance_m / std::max(width_m, kLeastWidth) + 1));
 }
 
 ReachPlan::ReachPlan(const Vec3& from, const Vec3& to, const Shape& shape)

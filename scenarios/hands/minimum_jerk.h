@@ -11,7 +11,7 @@ namespace trocar {
 /// 10 s^3 - 15 s^4 + 6 s^5, 0 before s = 0, 1 after s = 1.
 double minimum_jerk(double s);
 
-/// Movement time of a reach: k (0.12 + 0.11 log2(2 D / W + 1)) s.
+/// Movement time of a reach: k (0.12 + 0.11 log2(2 D / W + 1)) s, finite where nothing is asked for (D = W = 0).
 double reach_time_s(double distance_m, double width_m, double speed_factor);
 
 class ReachPlan {

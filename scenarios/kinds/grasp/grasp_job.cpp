@@ -42,6 +42,7 @@ constexpr double kJudgement = 0.5;                   // of the force CV: error o
 constexpr double kLostTime = 0.25;                   // s without felt grip before the block counts as lost
 constexpr double kTighter = 1.35;                    // of the window when the block is seen to slip
 constexpr double kHighest = 0.055;                   // m over the board: no higher when withdrawing
+constexpr double kSnagged = 1.5;                     // N on the fingers that tell that the open jaws hang on something
 constexpr double kPatience = 0.9;                    // s to wait for the next block before trying the same again
 
 /// Can the pads take the object across this axis of it? It lies level, and open jaws reach round it.
@@ -298,6 +299,7 @@ void GraspJob::withdraw(const Percept& percept, const HandIntent& intent) {
   const double room = percept.goal_T.z() + kHighest - percept.tip_T.z();  // what is left of the height
   const double share = std::clamp(room / std::max(1e-3, out.z()), 0.0, 1.0);
   straight(intent.X_TI.p, intent.X_TI.p + share * out, reach_time_s(kHover, 0.010, skill_.speed_factor));
+  snagged_ = false;
   enter(Step::kRetreat);
 }
 
@@ -309,6 +311,12 @@ void GraspJob::leave(const Percept& percept, double dt_s, HandIntent& intent, Ha
       if (percept.jaw_opening_m < std::min(thickness(percept) + 0.005, kBlockOpenJaw - 0.001)) return;
       return withdraw(percept, intent);
     case Step::kRetreat:
+      if (!snagged_ && percept.felt_force_T.norm() > kSnagged) {  // straight up, as what stands between them stands
+        snagged_ = true;
+        const double up = std::max(0.0, percept.goal_T.z() + kHighest - percept.tip_T.z());
+        straight(percept.tip_T, percept.tip_T + Vec3(0, 0, up), reach_time_s(up, 0.010, skill_.speed_factor));
+        in_step_s_ = 0;
+      }
       intent.X_TI.p = plan_.at(in_step_s_);
       if (in_step_s_ <= plan_.duration_s()) return;
       if (!due_) return enter(Step::kWait);

@@ -70,8 +70,9 @@ class GraspJob : public HandWork {
   double in_step_s_ = 0, lost_s_ = 0, slip_s_ = 0;
   double felt_sum_n_ = 0, opening_sum_m_ = 0;
   int felt_count_ = 0, corrections_ = 0;
-  bool due_ = false;  ///< the next block is lit, and will be reached for after the withdrawal
-  int hits_ = 0;      ///< on the way down, one after the other
+  bool snagged_ = false;  ///< the present withdrawal goes straight up
+  bool due_ = false;      ///< the next block is lit, and will be reached for after the withdrawal
+  int hits_ = 0;          ///< on the way down, one after the other
 };
 
 }  // namespace trocar

@@ -31,6 +31,8 @@ TEST(ReachTime, GrowsWithDistanceOverWidth) {
   EXPECT_NEAR(reach_time_s(0.040, 0.006, 1), 0.12 + 0.11 * std::log2(2 * 40.0 / 6 + 1), 1e-12);
   EXPECT_NEAR(reach_time_s(0.040, 0.006, 2.1), 2.1 * reach_time_s(0.040, 0.006, 1), 1e-12);
   EXPECT_NEAR(reach_time_s(0, 0.006, 1), 0.12, 1e-12);
+  EXPECT_NEAR(reach_time_s(0, 0, 1), 0.12, 1e-12);
+  EXPECT_LT(reach_time_s(0.040, 0, 1), 2) << "a place of no size is reached all the same";
 }
 
 TEST(ReachPlan, WithdrawsCrossesAndArrives) {
