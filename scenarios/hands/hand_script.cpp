@@ -61,7 +61,7 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
   StrictTable document = StrictTable::parse(text, file);
   HandScript script;
   script.name = document.text("name");
-  const std::string kind = document.choice("kind", {"skilled", "waypoints", "learner", "population", "idle"});
+  const std::string kind = document.choice("kind", {"skilled", "waypoints", "learner", "population", "cheat", "idle"});
   if (kind == "skilled") {
     script.kind = HandKind::kSkilled;
     script.skill = read_skill(document.table("skill"));
@@ -80,6 +80,14 @@ HandScript parse_hand_script(const std::string& text, const std::string& file) {
     StrictTable population = document.table("population");
     script.population = {population.text("from"), population.text("to"), population.number("spread_cv", 0, 1)};
     population.finish();
+  }
+  if (kind == "cheat") {
+    script.kind = HandKind::kCheat;
+    StrictTable cheat = document.table("cheat");
+    const bool clutch = cheat.choice("trick", {"clutch", "dwell"}) == "clutch";
+    script.cheat = {clutch ? Cheat::Trick::kClutch : Cheat::Trick::kDwell, cheat.text("of"),
+                    cheat.number("for_s", 0.1, 600)};
+    cheat.finish();
   }
   document.finish();
   return script;

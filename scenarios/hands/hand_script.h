@@ -71,7 +71,14 @@ struct Population {
   double spread_cv = 0;  ///< of every number of a person's skill about what the latent skill makes it
 };
 
-enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kPopulation, kIdle };
+/// Somebody's hand with a trick (scenarios/hands/cheating_hand.h).
+struct Cheat {
+  enum class Trick : std::uint8_t { kClutch, kDwell } trick = Trick::kClutch;
+  std::string of;    ///< skilled hand of the same folder
+  double for_s = 0;  ///< how long the trick is played each time
+};
+
+enum class HandKind : std::uint8_t { kSkilled, kWaypoints, kLearner, kPopulation, kCheat, kIdle };
 
 struct HandScript {
   std::string name;
@@ -80,6 +87,7 @@ struct HandScript {
   std::vector<ScriptedMove> moves;
   Learning learning;
   Population population;
+  Cheat cheat;
 };
 
 /// @throws InputError "FILE:LINE:COLUMN: message".

@@ -4,6 +4,7 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
+#include "scenarios/hands/cheating_hand.h"
 #include "scenarios/hands/population.h"
 #include "scenarios/hands/skilled_hand.h"
 #include "scenarios/hands/waypoint_hand.h"
@@ -12,7 +13,7 @@ namespace trocar {
 
 std::unique_ptr<Hand> make_hand(const HandScript& script, std::uint64_t seed) {
   if (script.kind == HandKind::kSkilled) return std::make_unique<SkilledHand>(script.skill, seed);
-  if (script.kind == HandKind::kLearner || script.kind == HandKind::kPopulation)
+  if (script.kind == HandKind::kLearner || script.kind == HandKind::kPopulation || script.kind == HandKind::kCheat)
     throw InputError("hand '" + script.name + "' is made of others: it must be made by name");
   return std::make_unique<WaypointHand>(script.moves);
 }
@@ -33,7 +34,7 @@ std::filesystem::path hand_file(const std::string& name_or_script, const std::fi
 HandSkill skill_of(const std::string& name, const HandScript& made_of, const std::filesystem::path& hands_dir) {
   const HandScript script = load_hand_script(hand_file(name, hands_dir));
   if (script.kind != HandKind::kSkilled)
-    throw InputError("hand '" + made_of.name + "': '" + name + "' has no skill to learn from");
+    throw InputError("hand '" + made_of.name + "': '" + name + "' has no skill of its own");
   return script.skill;
 }
 
@@ -57,6 +58,9 @@ std::unique_ptr<Hand> make_hand(const std::string& name_or_script, std::uint64_t
   if (script.kind == HandKind::kPopulation) return make_person(script, name_or_script, seed, hands_dir);
   if (split_person(name_or_script).second)
     throw InputError("hand '" + name_or_script + "': '" + script.name + "' is no population");
+  if (script.kind == HandKind::kCheat)
+    return std::make_unique<CheatingHand>(
+        std::make_unique<SkilledHand>(skill_of(script.cheat.of, script, hands_dir), seed), script.cheat);
   if (script.kind != HandKind::kLearner) return make_hand(script, seed);
   const Learning& learning = script.learning;
   return std::make_unique<SkilledHand>(
@@ -70,7 +74,7 @@ std::string hand_bytes(const std::string& name_or_script, const std::filesystem:
   const HandScript script = load_hand_script(file);
   std::string bytes = read_text_file(file.string());
   for (const std::string& other :
-       {script.learning.from, script.learning.to, script.population.from, script.population.to}) {
+       {script.learning.from, script.learning.to, script.population.from, script.population.to, script.cheat.of}) {
     if (!other.empty()) bytes += read_text_file(hand_file(other, hands_dir).string());
   }
   return bytes;

@@ -28,9 +28,10 @@ std::string refusal(const std::string& from, const std::string& to) {
   return "accepted";
 }
 
-TEST(HandScripts, AllSevenTheLearnerAndThePopulationAreShipped) {
-  const std::vector<std::string> names = {"clumsy",  "expert", "heavy-handed", "idle",        "intermediate",
-                                          "learner", "novice", "population",   "speed-runner"};
+TEST(HandScripts, AllSevenTheLearnerThePopulationAndTheCheatsAreShipped) {
+  const std::vector<std::string> names = {"clumsy",       "clutch-cheat", "dwell-cheat",  "expert",
+                                          "heavy-handed", "idle",         "intermediate", "learner",
+                                          "novice",       "population",   "speed-runner"};
   EXPECT_EQ(list_hands(kHands), names);
   for (const std::string& name : names) EXPECT_EQ(load_hand_script(kHands / (name + ".toml")).name, name);
   EXPECT_EQ(load_hand_script(kHands / "idle.toml").kind, HandKind::kIdle);
