@@ -213,7 +213,8 @@ void SutureNeedle::before(const OrganView& view, const std::optional<DriverJaws>
   if (held()) {
     X_TN_ = jaws->X_TI * X_IN_;
     speed_ = {};
-  } else {
+    stands_ = false;
+  } else if (!stands_) {
     go_free(view, thread);
     if (tether_ && paths_.empty()) keep_tethered();
   }
@@ -250,7 +251,7 @@ void SutureNeedle::feel_touch(const OrganView& view, std::span<const NeedleSprin
   const double lies = std::min(kPressed / steep, shape_.length_m);
   touch_area_ = 2 * shape_.radius_at(shape_.length_m - lies) * lies;
   if (touch_n_ >= puncture_force(view.organ.material(), shape_, tissue_) && touch_area_ < tissue_.most_contact_m2) {
-    paths_.emplace_back(view, shape_, touch_->rest, next_path_++);
+    paths_.emplace_back(view, shape_, touch_->rest, X_TN_.R * shape_.tangent(shape_.length_m), next_path_++);
     tell(NeedleEvent::Kind::kPuncture, paths_.back(), touch_n_);
     touch_.reset();
     return;

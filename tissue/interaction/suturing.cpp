@@ -145,9 +145,9 @@ SutureEvent parse_suture_event(std::string_view bytes) {
   return event;
 }
 
-Pose needle_in_jaws(const NeedleShape& needle) {
-  constexpr double kHeldAt = 0.25, kBehindTip = 0.002;  // of its length; m
-  const double arc = kHeldAt * needle.length_m;
+Pose needle_in_jaws(const NeedleShape& needle, double share) {
+  constexpr double kBehindTip = 0.002;  // m
+  const double arc = share * needle.length_m;
   Pose X_NI;
   X_NI.R.col(0) = -needle.tangent(arc);
   X_NI.R.col(1) = -needle.place(arc).normalized();
@@ -166,7 +166,9 @@ Suturing::Suturing(const SutureSetup& setup, const SoftOrgan& organ, const Sutur
       tube_(still_surface(needle_tube(setup.needle))),
       thread_seen_(thread_.rod(), kThreadSides),
       seen_{needle_surface(tube_, setup.X_TN), thread_seen_.surface()},
-      counts_(so_far) {}
+      counts_(so_far) {
+  if (setup.stands) needle_.stand();
+}
 
 void Suturing::load(const Pose& X_TI, const Pose& X_IN) {
   needle_.load(X_TI, X_IN);

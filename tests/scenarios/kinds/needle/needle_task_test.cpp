@@ -1,0 +1,3 @@
+#include "scenarios/kinds/needle/needle_task.h"
+
+#include <gtest/gtest.h>
