@@ -14,14 +14,15 @@ constexpr double kShutDriver = -0.010;                    // m of intent: the fi
 constexpr double kDriverSpeed = 0.030;                    // m/s of opening and closing
 constexpr double kShutFor = 0.15;                         // s
 constexpr double kOverNeedle = 0.020;                     // m along the shaft at which the reach ends
-constexpr double kOverDot = 0.005;                        // m over the tissue, at which the needle is looked at
+constexpr double kOverDot = 0.0025;                       // m over the tissue, at which the needle is looked at
 constexpr double kNeedleLate = 0.16, kNeedleLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
 constexpr double kQuickestNeedle = 0.15;                  // s of a reach
-constexpr double kPressOn = 0.002;  // m by which tissue gives way before the point goes in, as a person expects
-constexpr double kPressTime = 0.5;  // s, before speed_factor
-constexpr double kRollSpeed = 45 * kDegree;    // rad/s, before speed_factor
-constexpr double kBackFromDot = 10 * kDegree;  // by which the needle is turned back as it is brought
-constexpr double kBeyond = 48 * kDegree;       // of the needle that shall stand out at the end
+constexpr double kPressOn = 0.0025;  // m by which tissue gives way before the point goes in, as a person expects
+constexpr double kClear = 0.010;     // m to which the needle is lifted
+constexpr double kKeepGain = 2, kKeepRest = 0.0003;  // 1/s by which it is kept over the dot; m that are not seen
+constexpr double kPressTime = 0.8;                   // s, before speed_factor
+constexpr double kRollSpeed = 45 * kDegree;          // rad/s, before speed_factor
+constexpr double kBeyond = 48 * kDegree;             // of the needle that shall stand out at the end
 constexpr double kRollMore = 12 * kDegree, kMostMore = 30 * kDegree;  // while it does not; before it is given up
 constexpr double kDrawRoll = 145 * kDegree;
 constexpr double kDrawOut = 0.030;                             // m
@@ -30,18 +31,13 @@ constexpr double kStaysFor = 1.2;                              // s, before what
 
 Vec3 aside(const Vec3& v, const Vec3& axis) { return (v - v.dot(axis) * axis).normalized(); }
 
-/// Of the needle's circle as it shall go in: its middle, and its half angle at the dots.
-struct WantedCircle {
-  Vec3 middle, up;
-  double half_rad;
-};
-WantedCircle wanted_circle(const Percept& percept, const Vec3& entry_T, const Vec3& exit_T) {
-  const double radius = percept.object.size_m.y();
-  const double half = std::min((exit_T - entry_T).norm() / 2, radius);
-  const double half_rad = std::asin(half / radius);
-  const Vec3 up = aside(percept.target_normal_T, percept.target_R_TI.col(2));
-  return {(entry_T + exit_T) / 2 + radius * std::cos(half_rad) * up, up, half_rad};
+/// Of the needle's circle between the dots.
+double half_angle(const Percept& percept) {
+  const double half = (percept.goal_T - percept.target_T).norm() / 2;
+  return std::asin(std::min(1.0, half / percept.object.size_m.y()));
 }
+
+Vec3 point_N(const Percept& percept) { return {-percept.object.size_m.y(), 0, 0}; }
 
 }  // namespace
 
@@ -60,7 +56,7 @@ void NeedleJob::start(const Percept& percept, const HandIntent& intent, HandRand
   corrections_ = 0;
   if (cue_ == Cue::kTakeNeedle) return enter(Step::kOpen);
   if (cue_ == Cue::kPull) return begin_roll(Step::kDraw, percept, kDrawRoll, intent, random);
-  straight(Step::kLift, intent, kOverDot * 2 * Vec3::UnitZ());
+  straight(Step::kLift, intent, kClear * Vec3::UnitZ());
 }
 
 void NeedleJob::straight(Step step, const HandIntent& intent, const Vec3& way) {
@@ -113,29 +109,29 @@ void NeedleJob::close(double dt_s, HandIntent& intent) {
   if (in_step_s_ > kShutFor + kStaysFor + skill_.reaction_s + skill_.pause_s) enter(Step::kOpen);
 }
 
-/// Plans a movement of the needle in the jaws: its circle through both dots, its point turned back, over the tissue.
+/// Plans a movement of the needle in the jaws: its point over the first dot, its circle turned to go through both.
 void NeedleJob::bring(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   const Pose X_IN = Pose{percept.R_TI, percept.tip_T}.inverse() * percept.object.X_TO;
-  const WantedCircle circle = wanted_circle(percept, percept.target_T, percept.goal_T);
   const Mat3& R = percept.target_R_TI;
-  const Vec3 shaft = R.col(2), side = shaft.cross(circle.up);
-  const double angle = 1.5 * std::numbers::pi - circle.half_rad - kBackFromDot;
-  const Vec3 wanted = std::cos(angle) * side + std::sin(angle) * circle.up;
+  const Vec3 shaft = R.col(2), up = aside(percept.target_normal_T, shaft), side = shaft.cross(up);
+  const double angle = 1.5 * std::numbers::pi - half_angle(percept);
+  const Vec3 wanted = std::cos(angle) * side + std::sin(angle) * up;
   const Vec3 point = aside(-(R * X_IN.R).col(0), shaft);
   const double roll = std::atan2(point.cross(wanted).dot(shaft), point.dot(wanted));
   const Mat3 R_goal = Eigen::AngleAxisd(roll, shaft).toRotationMatrix() * R;
-  const Vec3 goal = circle.middle + kOverDot * percept.target_normal_T - R_goal * X_IN.p;
+  over_T_ = percept.target_T + kOverDot * percept.target_normal_T;
+  const Vec3 goal = over_T_ - R_goal * (X_IN * point_N(percept));
   plan_ = aimed_reach(intent.X_TI.p, goal - percept.tip_T, percept.target_radius_m, kQuickestNeedle, skill_, random);
   turn_to(R_goal * percept.R_TI.transpose(), intent, random);
-  off_ = circle.middle + kOverDot * percept.target_normal_T;
   rolled_rad_ = 0;
-  by_rad_ = 2 * circle.half_rad + kBackFromDot + kBeyond;
+  by_rad_ = 2 * half_angle(percept) + kBeyond;
   enter(Step::kBring);
 }
 
 void NeedleJob::see(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   if (in_step_s_ < kNeedleLate + kNeedleLook * skill_.speed_factor) return;
-  const bool off = (off_ - percept.object.X_TO.p).norm() > skill_.settle_share * percept.target_radius_m;
+  const bool off =
+      (over_T_ - percept.object.X_TO * point_N(percept)).norm() > skill_.settle_share * percept.target_radius_m;
   if (off && corrections_ < skill_.max_corrections) {
     ++corrections_;
     return bring(percept, intent, random);
@@ -143,8 +139,17 @@ void NeedleJob::see(const Percept& percept, const HandIntent& intent, HandRandom
   const double push = skill_.force_bias * (1 + skill_.force_cv * random.normal()) * kPressOn;
   const Vec3 way = -(kOverDot + push) * percept.target_normal_T;
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way, {0, Vec3::Zero(), 0, kPressTime * skill_.speed_factor});
-  turn_ = TurnPlan(intent.X_TI.R, intent.X_TI.R, plan_.duration_s());
+  aside_ = Vec3::Zero();
   enter(Step::kPress);
+}
+
+/// Presses it on, and keeps it over the dot as far as that is seen.
+void NeedleJob::press(const Percept& percept, double dt_s, HandIntent& intent) {
+  const Vec3 off = over_T_ - percept.object.X_TO * point_N(percept), normal = percept.target_normal_T;
+  const Vec3 beside = off - off.dot(normal) * normal;
+  if (const double size = beside.norm(); size > kKeepRest)
+    aside_ += beside * (kKeepGain / skill_.speed_factor * (1 - kKeepRest / size) * dt_s);
+  intent.X_TI.p = plan_.at(in_step_s_) + aside_;
 }
 
 /// About where the needle's middle is taken to be.
@@ -170,9 +175,7 @@ void NeedleJob::roll(HandIntent& intent) const {
 void NeedleJob::rolled(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   if (in_step_s_ < roll_s_ + kNeedleLate + skill_.reaction_s + skill_.pause_s) return;
   rolled_rad_ += by_rad_;
-  const double asked = 2 * std::asin(std::min(1.0, (percept.goal_T - percept.target_T).norm() / 2 /
-                                                       std::max(1e-6, percept.object.size_m.y()))) +
-                       kBackFromDot + kBeyond;
+  const double asked = 2 * half_angle(percept) + kBeyond;
   if (rolled_rad_ < asked + kMostMore) return begin_roll(Step::kRoll, percept, kRollMore, intent, random);
   begin_roll(Step::kUnroll, percept, -rolled_rad_, intent, random);
 }
@@ -217,14 +220,15 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
     case Step::kSee:
       return see(percept, intent, random);
     case Step::kPress:
-      if (moves(intent)) begin_roll(Step::kRoll, percept, by_rad_, intent, random);
+      press(percept, dt_s, intent);
+      if (in_step_s_ > plan_.duration_s()) begin_roll(Step::kRoll, percept, by_rad_, intent, random);
       return;
     case Step::kRoll:
       roll(intent);
       return rolled(percept, intent, random);
     case Step::kUnroll:
       roll(intent);
-      if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kOverDot * 2 * percept.target_normal_T);
+      if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kClear * percept.target_normal_T);
       return;
     case Step::kDraw:
       roll(intent);

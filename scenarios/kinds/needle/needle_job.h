@@ -51,6 +51,7 @@ class NeedleJob : public HandWork {
   void turn_to(const Mat3& R_missing, const HandIntent& intent, HandRandom& random);
   void bring(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void see(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void press(const Percept& percept, double dt_s, HandIntent& intent);
   void begin_roll(Step step, const Percept& percept, double by_rad, const HandIntent& intent, HandRandom& random);
   void roll(HandIntent& intent) const;
   void rolled(const Percept& percept, const HandIntent& intent, HandRandom& random);
@@ -62,7 +63,8 @@ class NeedleJob : public HandWork {
   Step step_ = Step::kOpen;
   Cue cue_ = Cue::kNone;
   double in_step_s_ = 0, noticed_s_ = 0;
-  Vec3 off_ = Vec3::Zero();         ///< from the seen needle's middle to where it is to be
+  Vec3 over_T_ = Vec3::Zero();      ///< over the dot, where the point is brought
+  Vec3 aside_ = Vec3::Zero();       ///< moved sideways as it was pressed on
   Vec3 middle_T_ = Vec3::Zero();    ///< about which it is rolled,
   Vec3 shaft_T_ = Vec3::UnitZ();    ///< and along which,
   Pose from_;                       ///< from where,

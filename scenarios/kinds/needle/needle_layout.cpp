@@ -14,6 +14,7 @@ namespace trocar {
 namespace {
 
 constexpr int kNeedleDraws = 1000;
+constexpr double kShaftGap = 0.0025;   // m between organ and shaft with the tip on a dot: it goes down as it rolls
 constexpr double kBeforeEntry = 0.25;  // rad by which a needle in the stand is turned back from where it goes in
 
 Vec3 across(const Vec3& v, const Vec3& axis) { return (v - v.dot(axis) * axis).normalized(); }
@@ -34,7 +35,8 @@ std::vector<Target> laid_pairs(const Exercise& exercise, const ExerciseLevel& le
     for (int pair = 0; pair < pairs; ++pair) {
       const Vec3 at = middle_T + (pair - (pairs - 1) / 2.0) * rules.pair_gap_m * slit + way * rules.apart_m * side;
       const auto point = ground.field.top(at.x(), at.y());
-      if (!point || !ground.carries(*point)) return {};
+      if (!point || !ground.is_even(*point)) return {};
+      if (ground.room && ground.room->gap_m(point->position, point->normal) < kShaftGap) return {};
       const Vec3 shaft = (point->position - level.port_m).normalized();
       if (std::asin(std::clamp(-shaft.dot(point->normal), -1.0, 1.0)) > rules.most_lean_rad) return {};
       dots.push_back({.centre_T = point->position, .normal_T = point->normal, .radius_m = exercise.layout.radius_m});

@@ -56,7 +56,7 @@ class NeedleTask final : public ExerciseTask {
   std::vector<Target> targets_;
   Vec3 port_T_, centre_T_;
   std::string display_;
-  double tolerance_m_;
+  double soft_n_, tolerance_m_;
   int pairs_, pair_ = 0, errors_ = 0;
   int grips_ = 0, point_grips_ = 0;  ///< of this pair
   bool held_ = false, drawn_ = false, in_ = false;
