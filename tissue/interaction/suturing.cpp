@@ -216,7 +216,8 @@ void Suturing::before(const HapticState& newest, const Tool& tool, bool present,
     around.tool = &tool, around.X_TI = newest.stylus.X_TI;
     if (tool.kind == InstrumentKind::kScissors) snip(newest.stylus);
   }
-  for (const NeedlePath& path : needle_.paths()) {
+  // Of a needle that stands ready only its way counts: its thread runs freely in the holes.
+  for (const NeedlePath& path : setup_.stands ? std::span<const NeedlePath>() : needle_.paths()) {
     if (path.entry_arc_m() > 0) thread_.drop(path.number());
     thread_.enter(organ, path);
   }
@@ -241,7 +242,7 @@ void Suturing::after(const HapticState& newest, const Tool& tool, bool present, 
 void Suturing::take_needle_events(const SoftOrgan& organ) {
   for (const NeedleEvent& event : needle_.events()) {
     const SutureEvent::Kind kind = kind_of(event.kind);
-    if (kind == SutureEvent::Kind::kStitch) thread_.come_out(organ, event);
+    if (kind == SutureEvent::Kind::kStitch && !setup_.stands) thread_.come_out(organ, event);
     if (kind == SutureEvent::Kind::kNeedleTorn || kind == SutureEvent::Kind::kWithdrawn) thread_.drop(event.path);
     events_.push_back(
         {.kind = kind, .entry_rest_T = event.entry_rest_T, .exit_rest_T = event.end_rest_T, .force_n = event.force_n});

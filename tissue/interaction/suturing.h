@@ -22,8 +22,9 @@ namespace trocar {
 
 struct SutureSetup {
   NeedleShape needle = {};
-  Pose X_TN = {};                       ///< where it is at first
-  bool stands = false;                  ///< there, until it is taken; else a driver brings it in
+  Pose X_TN = {};  ///< where it is at first
+  /// There, until it is taken, and its thread runs freely in the holes; else a driver brings it in.
+  bool stands = false;
   double thread_m = 0.15;               ///< from the needle to the end
   Vec3 thread_along_T = Vec3::UnitX();  ///< how it lies at first: straight
   SutureThreadOptions thread = {};

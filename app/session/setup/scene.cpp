@@ -358,7 +358,7 @@ void set_needle_up(Scene& scene) {
   auto suture = std::make_shared<SutureSetup>(*scene.suture);
   suture->X_TN = *X_TN;
   suture->stands = true;
-  suture->thread_along_T = -Vec3::UnitZ();
+  suture->thread_along_T = -X_TN->R.col(2);  // over the organ, away from the jaws
   scene.suture = std::move(suture);
 }
 

@@ -102,9 +102,13 @@ void NeedleJob::look(const Percept& percept, const HandIntent& intent, HandRando
   enter(Step::kClose);
 }
 
+void NeedleJob::shut(double dt_s, HandIntent& intent) const {
+  intent.jaw_opening_m = std::max(kShutDriver, intent.jaw_opening_m - kDriverSpeed / skill_.speed_factor * dt_s);
+}
+
 /// Until what comes next is noticed; if nothing does, there was nothing between the jaws.
 void NeedleJob::close(double dt_s, HandIntent& intent) {
-  intent.jaw_opening_m = std::max(kShutDriver, intent.jaw_opening_m - kDriverSpeed / skill_.speed_factor * dt_s);
+  shut(dt_s, intent);
   if (intent.jaw_opening_m > kShutDriver) in_step_s_ = 0;
   if (in_step_s_ > kShutFor + kStaysFor + skill_.reaction_s + skill_.pause_s) enter(Step::kOpen);
 }
@@ -194,6 +198,7 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
     cue_ = percept.cue;
     return start(percept, intent, random);
   }
+  if (step_ > Step::kClose) shut(dt_s, intent);
   switch (step_) {
     case Step::kOpen:
       return open(percept, dt_s, intent);

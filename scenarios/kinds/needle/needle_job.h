@@ -46,6 +46,7 @@ class NeedleJob : public HandWork {
   void open(const Percept& percept, double dt_s, HandIntent& intent);
   void go(Step step, const Percept& percept, double over_m, const HandIntent& intent, HandRandom& random);
   void look(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void shut(double dt_s, HandIntent& intent) const;
   void close(double dt_s, HandIntent& intent);
   void straight(Step step, const HandIntent& intent, const Vec3& way);
   void turn_to(const Mat3& R_missing, const HandIntent& intent, HandRandom& random);

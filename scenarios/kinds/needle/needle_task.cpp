@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "scenarios/kinds/needle/needle_layout.h"
@@ -90,18 +89,6 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
     point_T_ = needle.X_TN * own_.shape.place(own_.shape.length_m);
     point_along_T_ = needle.X_TN.R * own_.shape.tangent(own_.shape.length_m);
     const double off = (bite_.entry_rest_T - entry.centre_T).norm();
-    {  // DEBUG
-      const Vec3 dd = (exit.centre_T - entry.centre_T).normalized(), nn = (entry.normal_T + exit.normal_T).normalized();
-      const Vec3 o = 1e3 * (bite_.entry_rest_T - entry.centre_T), sl = dd.cross(nn);
-      const Vec3 ax = needle.X_TN.R.col(2);
-      const Vec3 c = 1e3 * (needle.X_TN.p - circle.middle_T);
-      std::fprintf(stderr,
-                   "DEBUG in d %.2f n %.2f s %.2f; lean %.0f axis off %.1f deg; entry deg %.1f; centre off d %.2f n "
-                   "%.2f s %.2f; pt deg %.0f shaft.d %.2f\n",
-                   o.dot(dd), o.dot(nn), o.dot(sl), kInDegrees * std::asin(-shaft.dot(nn)),
-                   kInDegrees * angle_between(ax, -shaft), entry_deg_, c.dot(dd), c.dot(nn), c.dot(sl),
-                   kInDegrees * angle_between(bite_.entry_along_T, -nn), kInDegrees * std::asin(shaft.dot(dd)));
-    }
     log.add(event_type::kBiteBegun, off > tolerance_m_ ? Severity::kMinor : Severity::kInfo, pair_, off, "m");
     if (off > tolerance_m_) blame({"Beside the dot", "Draw it back out, or take more care at the next one."}, log);
   }
@@ -111,14 +98,6 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
   bite_ = needle.bite[0];
   if (!came_out) return;
   const double off = (bite_.end_rest_T - targets_[of_pair(1)].centre_T).norm();
-  {  // DEBUG
-    const Target& entry = targets_[of_pair(0)];
-    const Target& exit = targets_[of_pair(1)];
-    const Vec3 dd = (exit.centre_T - entry.centre_T).normalized(), nn = (entry.normal_T + exit.normal_T).normalized();
-    const Vec3 o = 1e3 * (bite_.end_rest_T - exit.centre_T), sl = dd.cross(nn);
-    std::fprintf(stderr, "DEBUG out d %.2f n %.2f s %.2f way deg %.1f\n", o.dot(dd), o.dot(nn), o.dot(sl),
-                 way_m_ > 0 ? way_deg_m_ / way_m_ : 0.0);
-  }
   log.add(event_type::kBiteThrough, off > tolerance_m_ ? Severity::kMinor : Severity::kInfo, pair_, off, "m");
   if (off > tolerance_m_) blame({"Out beside the dot", "Follow the needle's own circle."}, log);
 }
