@@ -14,6 +14,7 @@ constexpr double kFirstStep = 0.01;    // s
 constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as more
 constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
 constexpr double kBesideNick = 0.01;   // of a vessel's length
+constexpr double kLaidOff = 1;         // s after which a needle that was let go is replaced
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
 
 std::array<Vec3, 3> vertices_at(const std::array<std::int32_t, 3>& corner, const TriangleSurface& surface) {
@@ -350,8 +351,19 @@ void TissueWorld::clear_taken(ContactPatch& patch) const {
   }
 }
 
+/// Whoever lets go of a needle that is in no tissue gets another where the first stood.
+void TissueWorld::set_needle_up(double dt_s) {
+  const bool laid_off =
+      suturing_ && !suturing_->needle().held() && !suturing_->needle().stands() && suturing_->needle().paths().empty();
+  laid_off_s_ = laid_off ? laid_off_s_ + dt_s : 0;
+  if (suturing_ && laid_off_s_ < kLaidOff) return;
+  const SutureCounts so_far = suturing_ ? suturing_->counts() : SutureCounts{};
+  suturing_.emplace(*suture_, *soft_, so_far);
+}
+
 void TissueWorld::bring_needle(const StylusState& stylus, const Tool& tool, bool present) {
   if (!suture_) return;
+  if (suture_->stands) return set_needle_up(soft_->solid().options().step_s);
   const bool sound = stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite();
   const bool drives = present && sound && tool.kind == InstrumentKind::kNeedleDriver, taken_up = drives && !drives_;
   drives_ = drives;
@@ -373,6 +385,19 @@ void TissueWorld::add_suture(ContactPatch& patch) {
     frame_.slipped_m = suturing_->slipped_m();
   }
   frame_.suture = suturing_->state();
+  tell_needle();
+}
+
+void TissueWorld::tell_needle() {
+  const SutureNeedle& needle = suturing_->needle();
+  NeedleSight& sight = frame_.needle;
+  sight = {.there = true, .X_TN = needle.X_TN(), .bite = {}};
+  if (needle.held()) sight.held_share = needle.held_arc_m() / needle.shape().length_m;
+  for (const NeedlePath& path : needle.paths()) {
+    if (sight.bite_count == kMaxBitesSeen) break;
+    sight.bite[static_cast<std::size_t>(sight.bite_count++)] = {
+        path.number(), path.entry_rest_T(), path.end_rest_T(), path.entry_along_T(), path.through(), path.load_n()};
+  }
 }
 
 void TissueWorld::keep_changes() {

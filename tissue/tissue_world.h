@@ -85,7 +85,10 @@ class TissueWorld final : public World {
   /// A driver that is taken in hand, or comes into the scene, has a needle in its jaws, unless the last one is in
   /// tissue.
   void bring_needle(const StylusState& stylus, const Tool& tool, bool present);
+  /// The same where needles stand ready instead.
+  void set_needle_up(double dt_s);
   void add_suture(ContactPatch& patch);
+  void tell_needle();
   void clear_taken(ContactPatch& patch) const;
   void keep_changes();
   void follow(std::span<const SurfacePlace> places_T);
@@ -107,6 +110,7 @@ class TissueWorld final : public World {
   std::shared_ptr<const SutureSetup> suture_;    ///< with soft_
   std::optional<Suturing> suturing_;             ///< with suture_, since a needle was brought in
   bool drives_ = false;                          ///< the driver is in hand, in the scene
+  double laid_off_s_ = 0;                        ///< since the needle was let go
   std::size_t organ_vertices_ = 0;               ///< of felt_, before those of the adjacent organs
   std::vector<std::int32_t> triangle_material_;  ///< with soft_: of felt_
   TriangleSurface adjacent_T_;  ///< with soft_: the adjacent organs alone, their corners counted from 0

@@ -25,6 +25,7 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/needle/needle_layout.h"
 #include "scenarios/scoring/score.h"
 
 namespace trocar {
@@ -283,7 +284,8 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
                            RecordingWriter& writer) {
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
   if (scene.setup.tissue == kStillTissue &&
-      (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty() || !scene.board.ducts_T.empty()))
+      (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty() || !scene.board.ducts_T.empty() ||
+       needle_stand(scene.setup.exercise, scene.board)))
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
                      "' does not, choose another");
   if (judges_pull(scene.setup.exercise) && !scene.setup.exercise.sheets.empty() && scene.sheets.empty())

@@ -316,6 +316,24 @@ def transfer_errors(attempt):
     return None if drops is None else drops + bumps / 2
 
 
+def mean_of_pairs(kind):
+    """Mean over objects of the mean of what was told of each."""
+    def of(attempt):
+        pairs = {}
+        for event in attempt.events:
+            if event["type"] == kind:
+                pairs.setdefault(event["object"], []).append(event["value"])
+        return sum(sum(values) / len(values) for _, values in sorted(pairs.items())) / len(pairs) if pairs else None
+    return of
+
+
+def needle_redos(attempt):
+    if not attempt.count("NEEDLE_GRIPPED"):
+        return None
+    again = sum(e["type"] == "NEEDLE_GRIPPED" and e["severity"] != "info" for e in attempt.events)
+    return again + attempt.count("BITE_UNDONE", "NEEDLE_LOST")
+
+
 METRICS = {
     "time_s": lambda a: a.seconds,
     "wrong_places": lambda a: a.count("WRONG_PLACE"),
@@ -349,6 +367,10 @@ METRICS = {
     "clips_correct_share": clip_metric(clips_correct_share),
     "clip_errors": clip_metric(clip_errors),
     "cut_off_middle_m": lambda a: mean_value(a, "DIVIDED"),
+    "entry_error_m": mean_of_pairs("BITE_BEGUN"),
+    "exit_error_m": mean_of_pairs("BITE_THROUGH"),
+    "needle_angle_deg": mean_of_pairs("NEEDLE_DRAWN"),
+    "needle_redos": needle_redos,
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

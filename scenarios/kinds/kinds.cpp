@@ -6,6 +6,7 @@
 #include "scenarios/kinds/find/find_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/needle/needle_kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
 #include "scenarios/kinds/pegs/pegs_kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
@@ -18,7 +19,7 @@ namespace trocar {
 const std::vector<KindDescription>& all_kinds() {
   static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(), grasp_kind(), camera_kind(),
                                                   pegs_kind(),    wire_kind(),  find_kind(),  retract_kind(),
-                                                  palpate_kind(), clip_kind()};
+                                                  palpate_kind(), clip_kind(),  needle_kind()};
   return kinds;
 }
 

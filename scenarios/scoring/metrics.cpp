@@ -189,6 +189,18 @@ constexpr MetricDefinition kCatalogue[] = {
      "count of CLIP_WASTED, WRONG_STRUCTURE and DIVIDED that is not info", kLess, kErrors},
     {"cut_off_middle_m", "m", "distance of a cut from the middle between the clips beside it, mean over structures",
      "mean of DIVIDED", kLess},
+    {"entry_error_m", "m",
+     "distance from the dot to where the needle went in, mean over the bites of a pair, then over pairs",
+     "mean over objects of the mean of BITE_BEGUN", kLess, kErrors},
+    {"exit_error_m", "m",
+     "distance from the dot to where the needle came out, mean over the bites of a pair, then over pairs",
+     "mean over objects of the mean of BITE_THROUGH", kLess, kErrors},
+    {"needle_angle_deg", "deg",
+     "how far the needle's way in lies off that of its circle through both dots, and its point's way through the "
+     "tissue off its own direction, together; mean over pairs drawn through",
+     "mean of NEEDLE_DRAWN", kLess},
+    {"needle_redos", "1", "needles grasped again or at the wrong place, bites undone, needles dropped",
+     "count of NEEDLE_GRIPPED that is not info + count of BITE_UNDONE + count of NEEDLE_LOST", kLess, kErrors},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -285,6 +297,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_pegs_metrics(graded_events, context,
                    window ? std::optional<double>(window->second - window->first) : std::nullopt, metrics);
   add_clip_metrics(graded_events, metrics);
+  add_needle_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

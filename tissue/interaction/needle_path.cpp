@@ -29,8 +29,9 @@ double pull_out_force(const TissueSolid& tissue, double bridge_m, const NeedleTi
   return std::min(options.most_pull_out_n, tissue.rupture_n_per_m * std::max(bridge_m, options.least_bridge_m));
 }
 
-NeedlePath::NeedlePath(const OrganView& view, const NeedleShape& shape, const Vec3& entry_rest_T, std::int32_t number)
-    : number_(number) {
+NeedlePath::NeedlePath(const OrganView& view, const NeedleShape& shape, const Vec3& entry_rest_T, const Vec3& along_T,
+                       std::int32_t number)
+    : number_(number), entry_along_(along_T) {
   Place entry;
   entry.arc = shape.length_m;
   entry.rest = entry_rest_T;

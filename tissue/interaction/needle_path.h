@@ -60,8 +60,10 @@ struct NeedleSpring {
 
 class NeedlePath {
  public:
-  /// @param entry_rest_T where the surface was opened. @param number by which it is known
-  NeedlePath(const OrganView& view, const NeedleShape& shape, const Vec3& entry_rest_T, std::int32_t number);
+  /// @param entry_rest_T where the surface was opened. @param along_T the point's way there, unit. @param number by
+  /// which it is known
+  NeedlePath(const OrganView& view, const NeedleShape& shape, const Vec3& entry_rest_T, const Vec3& along_T,
+             std::int32_t number);
 
   /// Before the organ's step. @param share of the springs' stiffness
   void add_springs(const OrganView& view, const NeedleShape& shape, const NeedleTissueOptions& options,
@@ -80,6 +82,7 @@ class NeedlePath {
   double end_arc_m() const { return places_.back().arc; }
   const Vec3& entry_rest_T() const { return places_.front().rest; }
   const Vec3& end_rest_T() const { return places_.back().rest; }
+  const Vec3& entry_along_T() const { return entry_along_; }  ///< unit: the point's way where it went in, as it went
   double bridge_m() const { return (end_rest_T() - entry_rest_T()).norm(); }
   double load_n() const { return load_; }            ///< across the needle, in the last step
   double end_force_n() const { return end_force_; }  ///< of the tip on what is before it
@@ -104,7 +107,7 @@ class NeedlePath {
 
   std::int32_t number_ = 0;
   std::vector<Place> places_;  ///< entry first, the end of the way last
-  Vec3 end_before_ = Vec3::Zero();
+  Vec3 entry_along_ = Vec3::UnitZ(), end_before_ = Vec3::Zero();
   double end_foreseen_ = 0;
   bool through_ = false, at_surface_ = false, came_out_ = false;
   std::int32_t vertex_ = -1;  ///< of the surface at rest, near the end

@@ -7,15 +7,16 @@
 namespace trocar {
 namespace {
 
-constexpr double kTakesWire = 0.1, kKeepsWire = 0.05;  // N of squeeze, as SoftGrip
-constexpr double kWireReach = 0.001;                   // m beyond the pads
-constexpr double kWireSampling = 0.0005;               // m
-constexpr double kSteepEnough = 0.17;    // cosine to the inward normal from which a point does not slide off
-constexpr double kDeepestTouch = 0.004;  // m under the surface: what is deeper has got there without touching
-constexpr double kTouchEnds = 2e-4;      // m over the surface
-constexpr double kPressed = 5e-4;        // m round the surface in which the wire lies in its dent (a choice)
-constexpr double kLies = 50;             // N/m of the surface under a free needle (a choice)
-constexpr double kFreeDamping = 5;       // 1/s, of a free needle's motion (a choice)
+constexpr double kTakesWire = 0.1;        // N of squeeze, as SoftGrip
+constexpr double kCatchOpens = 0.0005;    // m over the wire: until then the catch of the driver holds it (a choice)
+constexpr double kWireReach = 0.001;      // m beyond the pads
+constexpr double kWireSampling = 0.0005;  // m
+constexpr double kSteepEnough = 0.17;     // cosine to the inward normal from which a point does not slide off
+constexpr double kDeepestTouch = 0.004;   // m under the surface: what is deeper has got there without touching
+constexpr double kTouchEnds = 2e-4;       // m over the surface
+constexpr double kPressed = 5e-4;         // m round the surface in which the wire lies in its dent (a choice)
+constexpr double kLies = 50;              // N/m of the surface under a free needle (a choice)
+constexpr double kFreeDamping = 5;        // 1/s, of a free needle's motion (a choice)
 constexpr double kLeans = 0.002;  // N of a thread on a needle that nothing else holds (a choice): thrice its weight
 constexpr double kMostWay = 0.02, kMostTurn = 0.5, kMostSlipTurn = 0.05;  // m, rad in a step
 constexpr double kLeastNeedleHold = 1;                                    // N/m of what the hand feels
@@ -92,6 +93,7 @@ void SutureNeedle::use_jaws(const std::optional<DriverJaws>& jaws) {
     if (now == GripState::kEmpty) block_ = {};
   };
   if (!jaws) return let_go(GripState::kEmpty);
+  if (was_held) X_TN_ = jaws->X_TI * X_IN_;  // it goes along, however quick they are
   const std::vector<double> arcs = arcs_between(jaws->X_TI, jaws->opening_m);
   if (!was_held) {
     const bool enters = state_ == GripState::kAround || jaws->opening_m > 2 * shape_.wire_radius_m;
@@ -100,7 +102,7 @@ void SutureNeedle::use_jaws(const std::optional<DriverJaws>& jaws) {
   }
   block_ = {2 * shape_.wire_radius_m, driver_.wire_n_per_m};
   squeeze_n_ = driver_.wire_n_per_m * std::max(0.0, 2 * shape_.wire_radius_m - jaws->opening_m);
-  if (was_held && (squeeze_n_ < kKeepsWire || arcs.empty()))
+  if (was_held && (jaws->opening_m > 2 * shape_.wire_radius_m + kCatchOpens || arcs.empty()))
     return let_go(arcs.empty() ? GripState::kEmpty : GripState::kAround);
   if (!was_held && squeeze_n_ >= kTakesWire) {
     X_IN_ = jaws->X_TI.inverse() * X_TN_;
@@ -208,12 +210,13 @@ void SutureNeedle::keep_tethered() {
 void SutureNeedle::before(const OrganView& view, const std::optional<DriverJaws>& jaws, const ThreadPull& thread,
                           std::vector<SoftSpring>& springs) {
   events_.clear();
-  use_jaws(jaws);
   const Vec3 swage = swage_T();
+  use_jaws(jaws);
   if (held()) {
     X_TN_ = jaws->X_TI * X_IN_;
     speed_ = {};
-  } else {
+    stands_ = false;
+  } else if (!stands_) {
     go_free(view, thread);
     if (tether_ && paths_.empty()) keep_tethered();
   }
@@ -250,7 +253,7 @@ void SutureNeedle::feel_touch(const OrganView& view, std::span<const NeedleSprin
   const double lies = std::min(kPressed / steep, shape_.length_m);
   touch_area_ = 2 * shape_.radius_at(shape_.length_m - lies) * lies;
   if (touch_n_ >= puncture_force(view.organ.material(), shape_, tissue_) && touch_area_ < tissue_.most_contact_m2) {
-    paths_.emplace_back(view, shape_, touch_->rest, next_path_++);
+    paths_.emplace_back(view, shape_, touch_->rest, X_TN_.R * shape_.tangent(shape_.length_m), next_path_++);
     tell(NeedleEvent::Kind::kPuncture, paths_.back(), touch_n_);
     touch_.reset();
     return;

@@ -60,6 +60,9 @@ class SutureNeedle {
   /// Puts it between the jaws, held. @param X_IN of the needle in the instrument
   void load(const Pose& X_TI, const Pose& X_IN);
   void place(const Pose& X_TN);  ///< at rest
+  /// From now on it stays where it is until jaws take it, as in a stand.
+  void stand() { stands_ = true; }
+  bool stands() const { return stands_; }
   /// In the next step, as long as it is free and in no tissue, its swage comes no further from a place than that: a
   /// taut thread is no spring that a step could stretch.
   void tether(const Vec3& place_T, double most_m) { tether_ = Tether{place_T, most_m}; }
@@ -123,6 +126,7 @@ class SutureNeedle {
   Twist speed_;  ///< about the middle of its mass
   Vec3 swage_way_ = Vec3::Zero();
   GripState state_ = GripState::kEmpty;
+  bool stands_ = false;
   double held_arc_ = 0, squeeze_n_ = 0;
   std::vector<NeedlePath> paths_;
   std::int32_t next_path_ = 0;

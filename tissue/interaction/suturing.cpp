@@ -145,9 +145,9 @@ SutureEvent parse_suture_event(std::string_view bytes) {
   return event;
 }
 
-Pose needle_in_jaws(const NeedleShape& needle) {
-  constexpr double kHeldAt = 0.25, kBehindTip = 0.002;  // of its length; m
-  const double arc = kHeldAt * needle.length_m;
+Pose needle_in_jaws(const NeedleShape& needle, double share) {
+  constexpr double kBehindTip = 0.002;  // m
+  const double arc = share * needle.length_m;
   Pose X_NI;
   X_NI.R.col(0) = -needle.tangent(arc);
   X_NI.R.col(1) = -needle.place(arc).normalized();
@@ -166,7 +166,9 @@ Suturing::Suturing(const SutureSetup& setup, const SoftOrgan& organ, const Sutur
       tube_(still_surface(needle_tube(setup.needle))),
       thread_seen_(thread_.rod(), kThreadSides),
       seen_{needle_surface(tube_, setup.X_TN), thread_seen_.surface()},
-      counts_(so_far) {}
+      counts_(so_far) {
+  if (setup.stands) needle_.stand();
+}
 
 void Suturing::load(const Pose& X_TI, const Pose& X_IN) {
   needle_.load(X_TI, X_IN);
@@ -214,7 +216,8 @@ void Suturing::before(const HapticState& newest, const Tool& tool, bool present,
     around.tool = &tool, around.X_TI = newest.stylus.X_TI;
     if (tool.kind == InstrumentKind::kScissors) snip(newest.stylus);
   }
-  for (const NeedlePath& path : needle_.paths()) {
+  // Of a needle that stands ready only its way counts: its thread runs freely in the holes.
+  for (const NeedlePath& path : setup_.stands ? std::span<const NeedlePath>() : needle_.paths()) {
     if (path.entry_arc_m() > 0) thread_.drop(path.number());
     thread_.enter(organ, path);
   }
@@ -239,7 +242,7 @@ void Suturing::after(const HapticState& newest, const Tool& tool, bool present, 
 void Suturing::take_needle_events(const SoftOrgan& organ) {
   for (const NeedleEvent& event : needle_.events()) {
     const SutureEvent::Kind kind = kind_of(event.kind);
-    if (kind == SutureEvent::Kind::kStitch) thread_.come_out(organ, event);
+    if (kind == SutureEvent::Kind::kStitch && !setup_.stands) thread_.come_out(organ, event);
     if (kind == SutureEvent::Kind::kNeedleTorn || kind == SutureEvent::Kind::kWithdrawn) thread_.drop(event.path);
     events_.push_back(
         {.kind = kind, .entry_rest_T = event.entry_rest_T, .exit_rest_T = event.end_rest_T, .force_n = event.force_n});

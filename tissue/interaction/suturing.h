@@ -22,7 +22,9 @@ namespace trocar {
 
 struct SutureSetup {
   NeedleShape needle = {};
-  Pose X_TN = {};                       ///< where it is at first
+  Pose X_TN = {};  ///< where it is at first
+  /// There, until it is taken, and its thread runs freely in the holes; else a driver brings it in.
+  bool stands = false;
   double thread_m = 0.15;               ///< from the needle to the end
   Vec3 thread_along_T = Vec3::UnitX();  ///< how it lies at first: straight
   SutureThreadOptions thread = {};
@@ -30,9 +32,10 @@ struct SutureSetup {
   NeedleDriverOptions jaws = {};
 };
 
-/// X_IN of a needle that is brought in: held at a quarter of its length from the swage, at the tip of the jaws, across
-/// the jaws, its circle across the shaft, so that rolling the shaft turns the needle as it is bent.
-Pose needle_in_jaws(const NeedleShape& needle);
+/// X_IN of a needle that is held well: so far from the swage, at the tip of the jaws, across the jaws, its circle
+/// across the shaft, so that rolling the shaft turns the needle as it is bent.
+/// @param share of its length; one that is brought in is held at a quarter
+Pose needle_in_jaws(const NeedleShape& needle, double share = 0.25);
 
 struct SutureEvent {
   /// As recordings keep them.

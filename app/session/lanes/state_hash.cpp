@@ -101,6 +101,7 @@ void StateHash::add(const TissueFrame& frame) {
   add_marks(frame);
   add_surgery(frame.surgery);
   add_suture(frame.suture);
+  add_bites(frame.needle);
   add_clips_and_drops(frame);
   add_duct_marks(frame);
 }
@@ -137,6 +138,16 @@ void StateHash::add_suture(const SutureState& suture) {
     add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(number)));
   add(std::uint64_t{suture.held});
   add(suture.pull_n);
+}
+
+/// Nothing while no needle is in tissue: where it lies is among the places of what is thin.
+void StateHash::add_bites(const NeedleSight& needle) {
+  for (std::int32_t i = 0; i < needle.bite_count; ++i) {
+    const NeedleBite& bite = needle.bite[static_cast<std::size_t>(i)];
+    add(static_cast<std::uint64_t>(bite.number) << 1 | std::uint64_t{bite.through});
+    for (const Vec3& place : {bite.entry_rest_T, bite.end_rest_T, bite.entry_along_T}) add(place);
+    add(bite.load_n);
+  }
 }
 
 void StateHash::add_clips_and_drops(const TissueFrame& frame) {

@@ -47,6 +47,7 @@ class StateHash {
   void add_duct_marks(const TissueFrame& frame);
   void add_surgery(const SurgeryState& surgery);
   void add_suture(const SutureState& suture);
+  void add_bites(const NeedleSight& needle);
   void add_clips_and_drops(const TissueFrame& frame);
   std::uint64_t state_ = 0;
 };

@@ -20,6 +20,7 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/files/strict_toml.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/needle/needle_layout.h"
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/height_field.h"
 #include "scenarios/layout/shaft_room.h"
@@ -350,6 +351,17 @@ void run_ducts(Scene& scene) {
   scene.thin_T = drawn_tubes(scene.ducts);
 }
 
+/// Needles that stand ready where the board has them.
+void set_needle_up(Scene& scene) {
+  const auto X_TN = needle_stand(scene.setup.exercise, scene.board);
+  if (!X_TN || !scene.suture) return;
+  auto suture = std::make_shared<SutureSetup>(*scene.suture);
+  suture->X_TN = *X_TN;
+  suture->stands = true;
+  suture->thread_along_T = -X_TN->R.col(2);  // over the organ, away from the jaws
+  scene.suture = std::move(suture);
+}
+
 /// As the exercise has it lie; nullopt: it says nothing of it, or this organ has not the one that is to be in the
 /// middle.
 std::optional<Pose> lying(const Exercise& exercise, const Organ& organ) {
@@ -401,6 +413,7 @@ void set_stage(Scene& scene) {
   scene.board = lay_out(scene, scene.setup.board, behind_tip);
   hide(scene);
   run_ducts(scene);
+  set_needle_up(scene);
   if (kind_of(exercise).on_organ) require_reach(scene);
   for (const InstrumentKind kind : exercise.instruments) scene.loop.tools.push_back(make_tool(kind, scene.loop.tool));
   scene.loop.tool = scene.loop.tools.front().shape;

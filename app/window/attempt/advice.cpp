@@ -53,6 +53,10 @@ std::string critical_advice(const Advised& a) {
     return a.words("Try next: count the clips before you take the scissors: two where it comes from, one beyond.");
   if (event == event_type::kWrongStructure)
     return a.words("Try next: follow each structure to where it comes from before you clip or cut it.");
+  if (event == event_type::kNeedleLost)
+    return a.words("Try next: close the jaws fully on the needle, and keep them shut until it is in the tissue.");
+  if (event == event_type::kTear)
+    return a.words("Try next: only roll once the point is in; whoever pushes across the needle tears.");
   return a.words("Try next: the same again, slower.");
 }
 
@@ -148,6 +152,15 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (is_band_share(m)) return in_band_advice(a);
   if (m == "force_max_n" && judges_pull(a.exercise))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "force_max_n" && a.exercise.suture)
+    return words("Try next: let the roll do the work, and press the point on only until it goes in.");
+  if (m == "entry_error_m")
+    return words("Try next: stop with the point just over the dot, look, and only then lower it.");
+  if (m == "exit_error_m")
+    return words("Try next: turn the needle so that its circle runs through both dots before it goes in.");
+  if (m == "needle_angle_deg")
+    return words("Try next: roll about the middle of the needle's circle; the jaws go round it.");
+  if (m == "needle_redos") return words("Try next: look where the jaws are on the needle before you close them.");
   if (m == "force_max_n") return words("Try next: let the jaws close round it without a pull, and open before you go.");
   if (m == "clips_correct_share")
     return words("Try next: before you close, look: straight across, tips beyond, clear of the clip beside it.");
@@ -239,6 +252,10 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
   if (m == "clip_errors") return words(row.raw == 1 ? "One mistake." : "{0} mistakes.", {row.value});
+  if (m == "entry_error_m") return words("In {0} beside the dot on average.", {row.value});
+  if (m == "exit_error_m") return words("Out {0} beside the dot on average.", {row.value});
+  if (m == "needle_angle_deg") return words("{0} off the needle's own way on average.", {row.value});
+  if (m == "needle_redos") return words(row.raw == 1 ? "Once done again." : "{0} times done again.", {row.value});
   if (m == "cut_off_middle_m") return words("Cut {0} off the middle on average.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);
   if (m == "horizon_share") return words("Level for {0} of the time.", {row.value});

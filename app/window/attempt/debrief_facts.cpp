@@ -144,6 +144,12 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kWrongStructure) return words("Wrong structure");
   if (type == event_type::kDivided) return words("Divided");
   if (type == event_type::kCutTooSoon) return words("Cut without enough clips");
+  if (type == event_type::kNeedleGripped) return words("Needle grasped");
+  if (type == event_type::kBiteBegun) return words("Point in");
+  if (type == event_type::kBiteThrough) return words("Point out");
+  if (type == event_type::kBiteUndone) return words("Drawn back out");
+  if (type == event_type::kNeedleDrawn) return words("Needle drawn through");
+  if (type == event_type::kNeedleLost) return words("Needle dropped");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

@@ -57,6 +57,9 @@ std::string critical_words(const Translator& words, const AttemptResult& result,
   if (event.type == event_type::kWrongStructure) return words("What must be spared was clipped or cut at {0} s.", {t});
   if (event.type == event_type::kBleeding)
     return words("At {0} s {1} mL of blood were lost.", {t, words.number(event.value, 0)});
+  if (event.type == event_type::kNeedleLost)
+    return words("The needle was lost at {0} s: it fell outside the field.", {t});
+  if (event.type == event_type::kTear) return words("At {0} s the needle tore the tissue.", {t});
   return words("A critical event at {0} s: {1}.",
                {t, event_words(words, event).empty() ? event.type : event_words(words, event)});
 }
