@@ -111,6 +111,7 @@ DuctSystem::DuctSystem(std::span<const DuctSetup> ducts, const SoftOrgan& organ,
       RodSurface touched(tube.rod, options_.contact_sides);
       ducts_.push_back(
           {setup, std::move(tube), std::move(touched), RodGrip(options_.grip), RodGrip(clasp_options(options_))});
+      ducts_.back().hook = RodHook(options_.hook);
     } catch (const InputError& error) {
       throw InputError("duct '" + setup.name + "': " + error.what());
     }
@@ -227,11 +228,15 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       grip->press(duct.tube.lumen);
     }
     of_jaws[d] = of_rods[d].size();
+    if (present && tool.kind == InstrumentKind::kHook)
+      duct.hook.reach(stylus.X_TI, duct.tube.rod, of_rods[d]);
+    else
+      duct.hook.let_go();
   }
   if (present) use_jaws(stylus, tool, organ);
   std::vector<SolvedContacts> touches;
   for (std::size_t d = 0; d < ducts_.size(); ++d) touches.push_back(contacts_of(d, contacts));
-  touched_ = present ? borne_most(touches) : -1;
+  touched_ = hooked() >= 0 ? hooked() : present ? borne_most(touches) : -1;
   if (present && touched_ < 0) touched_ = surrounded(stylus, tool);
   if (present) weld(stylus, tool, touches);
   anchor(organ);
@@ -249,6 +254,8 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       if (block_.stiffness_n_per_m < grip->block().stiffness_n_per_m) block_ = grip->block();
       if (hold_.stiffness_n_per_m < grip->hold().stiffness_n_per_m) hold_ = grip->hold();
     }
+    if (duct.hook.holds()) duct.hook.feel(stylus.X_TI, of_rods[d][of_jaws[d]], duct.tube.rod);
+    if (hold_.stiffness_n_per_m < duct.hook.hold().stiffness_n_per_m) hold_ = duct.hook.hold();
   }
   take_events();
   for (Duct& duct : ducts_) duct.tube.clips.step(duct.tube.rod, duct.tube.lumen);
@@ -331,10 +338,45 @@ void DuctSystem::use_scissors(const StylusState& stylus, std::span<const ClipSur
   }
 }
 
+/// The one that pulls hardest on it.
+std::int32_t DuctSystem::hooked() const {
+  std::int32_t found = -1;
+  double most = -1;
+  for (std::size_t d = 0; d < ducts_.size(); ++d)
+    if (ducts_[d].hook.holds() && ducts_[d].hook.load_n() > most)
+      most = ducts_[d].hook.load_n(), found = static_cast<std::int32_t>(d);
+  return found;
+}
+
+/// Current through a rod that lies on the foot seals it, and then parts it.
+void DuctSystem::burn_through(bool live, std::size_t d) {
+  Duct& duct = ducts_[d];
+  if (!live) {
+    duct.hot_s = 0;
+    duct.seared = false;
+    return;
+  }
+  duct.hot_s += duct.tube.rod.options().step_s;
+  const double arc = duct.hook.arc_m();
+  if (!duct.seared && duct.hot_s >= options_.hook_seals_s) {
+    duct.seared = true;
+    change({DuctChange::Kind::kSealed, static_cast<std::int32_t>(d), arc});
+  }
+  if (duct.hot_s < options_.hook_parts_s) return;
+  duct.hot_s = 0;
+  duct.seared = false;
+  change({DuctChange::Kind::kCut, static_cast<std::int32_t>(d), arc});
+  ++cuts_;
+}
+
 void DuctSystem::weld(const StylusState& stylus, const Tool& tool, std::span<const SolvedContacts> touches) {
   const bool live = stylus.pedal && describe(tool.kind).powered && tool.kind != InstrumentKind::kSuction;
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
+    if (duct.hook.holds()) {
+      burn_through(live && duct.hook.load_n() > options_.least_force_n, d);
+      continue;
+    }
     double arc = -1;
     if (live && holds(duct.grip.state()) && !duct.grip.arcs().empty()) {
       const std::vector<double> arcs = duct.grip.arcs();
@@ -447,6 +489,13 @@ double DuctSystem::slipped_m() const {
 
 void DuctSystem::add_nodes(std::vector<NodePlace>& nodes_T) const {
   for (const Duct& duct : ducts_) duct.tube.add_nodes(nodes_T);
+}
+
+bool DuctSystem::any_whole() const {
+  return std::any_of(ducts_.begin(), ducts_.end(), [](const Duct& duct) {
+    return std::none_of(duct.openings.begin(), duct.openings.end(),
+                        [](const DuctMark& mark) { return mark.kind != DuctMark::Kind::kNick; });
+  });
 }
 
 std::vector<DuctMark> DuctSystem::marks() const {
