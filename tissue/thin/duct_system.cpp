@@ -254,7 +254,8 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       if (block_.stiffness_n_per_m < grip->block().stiffness_n_per_m) block_ = grip->block();
       if (hold_.stiffness_n_per_m < grip->hold().stiffness_n_per_m) hold_ = grip->hold();
     }
-    if (duct.hook.holds()) duct.hook.feel(stylus.X_TI, of_rods[d][of_jaws[d]], duct.tube.rod);
+    if (duct.hook.holds())
+      duct.hook.feel(stylus.X_TI, std::span(of_rods[d]).subspan(of_jaws[d]).first<RodHook::kSprings>(), duct.tube.rod);
     if (hold_.stiffness_n_per_m < duct.hook.hold().stiffness_n_per_m) hold_ = duct.hook.hold();
   }
   take_events();
@@ -293,9 +294,10 @@ std::int32_t DuctSystem::surrounded(const StylusState& stylus, const Tool& tool)
 void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ) {
   const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
   for (std::size_t d = 0; d < ducts_.size(); ++d)
-    between_[d] =
-        jaws && (ducts_[d].grip.state() != GripState::kEmpty || ducts_[d].clasp.state() != GripState::kEmpty ||
-                 !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty());
+    between_[d] = ducts_[d].hook.holds() ||
+                  (jaws && (ducts_[d].grip.state() != GripState::kEmpty ||
+                            ducts_[d].clasp.state() != GripState::kEmpty ||
+                            !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);
   if (tool.kind == InstrumentKind::kClipApplier) use_applier(stylus, all, organ);
@@ -348,7 +350,7 @@ std::int32_t DuctSystem::hooked() const {
   return found;
 }
 
-/// Current through a rod that lies on the foot seals it, and then parts it.
+/// Current through a rod that lies on the foot seals it, and then parts it; while it hops off, it does not cool.
 void DuctSystem::burn_through(bool live, std::size_t d) {
   Duct& duct = ducts_[d];
   if (!live) {
@@ -356,7 +358,7 @@ void DuctSystem::burn_through(bool live, std::size_t d) {
     duct.seared = false;
     return;
   }
-  duct.hot_s += duct.tube.rod.options().step_s;
+  if (duct.hook.load_n() > options_.least_force_n) duct.hot_s += duct.tube.rod.options().step_s;
   const double arc = duct.hook.arc_m();
   if (!duct.seared && duct.hot_s >= options_.hook_seals_s) {
     duct.seared = true;
@@ -374,7 +376,7 @@ void DuctSystem::weld(const StylusState& stylus, const Tool& tool, std::span<con
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
     if (duct.hook.holds()) {
-      burn_through(live && duct.hook.load_n() > options_.least_force_n, d);
+      burn_through(live, d);
       continue;
     }
     double arc = -1;

@@ -32,7 +32,7 @@ std::optional<RodHook::Crossing> RodHook::crossing(const Pose& X_TI, const Elast
     const Vec3 point = a + share * (b - a);
     const Vec3 foot(0, point.y(), options_.foot_z_m);
     const Vec3 normal = (b - a).normalized().cross(Vec3::UnitY());
-    if (-point.y() < 0 || -point.y() > options_.foot_m || normal.norm() < kLeastSine) continue;
+    if (point.y() > options_.wire_radius_m || -point.y() > options_.foot_m || normal.norm() < kLeastSine) continue;
     const Vec3 away = (normal.z() < 0 ? 1 : -1) * normal.normalized();
     const double over = away.dot(point - foot);
     if (std::abs(over) > options_.crook_m || (best && std::abs(over) >= std::abs(best->over_m))) continue;
@@ -49,20 +49,24 @@ void RodHook::reach(const Pose& X_TI, const ElasticRod& rod, std::vector<RodSpri
   const bool over = crossing_->over_m >= clear;
   passed_through_ = passed_through_ || (!inside_ && !over);
   inside_ = !passed_through_;
-  load_n_ = 0;
-  hold_ = {};
-  if (inside_)
-    springs.push_back({crossing_->arc_m, -(X_TI.R * crossing_->away_I), options_.push_n_per_m,
-                       clear - crossing_->over_m, true, 0});
+  if (!inside_) return;
+  springs.push_back({crossing_->arc_m, -(X_TI.R * crossing_->away_I), options_.push_n_per_m,
+                     clear - crossing_->over_m, true, 0});
+  springs.push_back(
+      {crossing_->arc_m, X_TI.R.col(1), options_.push_n_per_m, clear + crossing_->foot_I.y(), true, 0});
 }
 
-void RodHook::feel(const Pose& X_TI, const RodSpring& spring, const ElasticRod& rod) {
-  load_n_ = std::max(0.0, spring.force_n);
-  if (load_n_ <= 0) return;
+void RodHook::feel(const Pose& X_TI, std::span<const RodSpring, kSprings> springs, const ElasticRod& rod) {
+  hold_ = {};
+  load_n_ = std::max(0.0, springs.front().force_n);
+  Vec3 pull_T = Vec3::Zero();
+  for (const RodSpring& spring : springs) pull_T += std::max(0.0, spring.force_n) * spring.direction;
+  if (pull_T.isZero()) return;
   hold_.point_I = crossing_->foot_I;
-  hold_.stiffness_n_per_m = std::min(options_.most_loop_n_per_m,
-                                     loop_stiffness(rod, crossing_->arc_m, spring.direction, options_.push_n_per_m));
-  hold_.anchor_T = X_TI * hold_.point_I + load_n_ / hold_.stiffness_n_per_m * spring.direction;
+  hold_.stiffness_n_per_m =
+      std::min(options_.most_loop_n_per_m,
+               loop_stiffness(rod, crossing_->arc_m, pull_T.normalized(), options_.push_n_per_m));
+  hold_.anchor_T = X_TI * hold_.point_I + pull_T / hold_.stiffness_n_per_m;
 }
 
 }  // namespace trocar

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/contact/tool_shape.h"
+
 namespace trocar {
 namespace {
 
 constexpr double kDissectToldFor = 3;  // s for which a mistake is shown
 constexpr double kTellEvery = 1;       // s of current from one event to the next
-constexpr double kAimOver = 0.002;     // m over the least lift, to where a strand is asked to be lifted
+constexpr double kAimOver = 0.0025;    // m over the least lift, to where a strand is asked to be lifted
 
 }  // namespace
 
@@ -167,7 +169,7 @@ void DissectTask::describe(const TaskInput& input, DirectorStatus& status) const
   status.demand.centre_T = at.point_T + bow * at.normal_T;
   status.demand.normal_T = at.normal_T;
   status.demand.radius_m = target.radius_m;
-  status.demand.goal_T = at.point_T + (rules_.lift_m + kAimOver) * at.normal_T;
+  status.demand.goal_T = at.point_T + (rules_.lift_m + kAimOver + ToolShape{}.radius_m) * at.normal_T;
   status.exposure = hooked_ ? std::clamp(gap_m_ / rules_.lift_m, 0.0, 1.0) : 0;
   status.force_shown = force_shown(display_, false);
   describe_message(*input.tissue, status);

@@ -7,12 +7,13 @@ namespace trocar {
 namespace {
 
 // The hook as a person knows it: foot towards -y of the instrument, so far beyond the tip's middle along the shaft.
-constexpr double kFootReach = 0.0060, kFootBeyond = 0.00165, kFootUnder = 0.0019;  // m; under a strand's axis
-constexpr double kOnFoot = 0.0046;       // m along the foot at which a strand shall lie
-constexpr double kAside = 0.0045;        // m further to the side, while the hook goes down
+constexpr double kFootBeyond = 0.00165, kFootUnder = 0.0025;  // m; under a strand's axis
+constexpr double kOnFoot = 0.0036;       // m along the foot at which a strand shall lie
+constexpr double kAside = 0.0052;        // m further to the side, while the hook goes down
 constexpr double kHookOver = 0.015;      // m over the place at which the reach ends
 constexpr double kDrawnBack = 0.015;     // m that the hook is drawn back before it crosses
-constexpr double kLower = 0.0012;        // m lower with each try that came up without the strand
+constexpr double kLower = 0.0008;        // m lower with each try that came up without the strand
+constexpr int kHeights = 3;              // that it is tried at
 constexpr double kPressIn = 0.0010;      // m that the tip is set into the tissue over a vessel
 constexpr double kHookLate = 0.16;       // s: the eyes are that late
 constexpr double kHookLook = 0.05;       // s of looking, before speed_factor
@@ -68,30 +69,37 @@ void HookJob::begin(const Percept& percept, const HandIntent& intent, HandRandom
 
 void HookJob::look(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   if (in_step_s_ < kHookLate + kHookLook * skill_.speed_factor) return;
-  const bool over = step_ == Step::kLook;
-  const Vec3 to = over ? over_T(percept) : down_T(percept);
+  const bool over = step_ == Step::kLook, under = step_ == Step::kUnder;
+  const Vec3 to = over ? over_T(percept) : under ? beside(percept, kOnFoot, 0) : down_T(percept);
   const bool again = (to - percept.tip_T).norm() > skill_.settle_share * kHookGood && corrections_ < skill_.max_corrections;
   if (again) {
     ++corrections_;
-    return go(over ? Step::kReach : Step::kAdvance, percept, to, intent, random);
+    return go(over ? Step::kReach : under ? Step::kSlide : Step::kAdvance, percept, to, intent, random);
   }
   corrections_ = 0;
   if (over) return go(Step::kAdvance, percept, down_T(percept), intent, random);
+  if (under) return lift(percept, intent, random);
   if (percept.cue == Cue::kHook) return go(Step::kSlide, percept, beside(percept, kOnFoot, 0), intent, random);
   enter(Step::kPress);
+}
+
+/// Straight up, as far as this person thinks is enough.
+void HookJob::lift(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  const double way = (percept.goal_T - percept.tip_T).dot(percept.target_normal_T);
+  go(Step::kLift, percept, percept.tip_T + std::min(1.0, enough_) * way * percept.target_normal_T, intent, random);
 }
 
 /// Is the strand seen to come along, and far enough?
 void HookJob::weigh(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   if (in_step_s_ < kHookLate + kHookLook * skill_.speed_factor) return;
   if (percept.shown_share < kComesAlong) {
-    ++tries_;
+    tries_ = (tries_ + 1) % kHeights;
     corrections_ = 0;
     return rise(percept, kDrawnBack, intent);
   }
   if (percept.shown_share < std::min(1.0, enough_) && corrections_ < skill_.max_corrections) {
     ++corrections_;
-    return go(Step::kLift, percept, percept.goal_T, intent, random);
+    return lift(percept, intent, random);
   }
   enter(Step::kBurn);
 }
@@ -101,7 +109,6 @@ void HookJob::burn(const Percept& percept, const HandSenses& senses, double dt_s
   if (step_ == Step::kPress && senses.touch_n() < kLies)
     intent.X_TI.p -= kSinks / skill_.speed_factor * dt_s * percept.target_normal_T;
   if (in_step_s_ < kInVainFor * skill_.speed_factor) return;
-  ++tries_;
   rise(percept, kDrawnBack, intent);
 }
 
@@ -115,10 +122,8 @@ void HookJob::arrive(const Percept& percept, HandIntent& intent, HandRandom& ran
       return enter(Step::kLook);
     case Step::kAdvance:
       return enter(Step::kCheck);
-    case Step::kSlide: {
-      const Vec3 lift = (percept.goal_T - percept.tip_T).dot(percept.target_normal_T) * percept.target_normal_T;
-      return go(Step::kLift, percept, percept.tip_T + std::min(1.0, enough_) * lift, intent, random);
-    }
+    case Step::kSlide:
+      return enter(Step::kUnder);
     default:
       return enter(Step::kWeigh);
   }
@@ -131,6 +136,7 @@ void HookJob::update(const Percept& percept, const HandSenses& senses, double dt
   switch (step_) {
     case Step::kLook:
     case Step::kCheck:
+    case Step::kUnder:
       return look(percept, intent, random);
     case Step::kWeigh:
       return weigh(percept, intent, random);

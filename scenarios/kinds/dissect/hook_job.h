@@ -1,5 +1,5 @@
 // How a simulated person works with the hook. At a strand: over its side, look, down beside it, slide the foot under it,
-// lift, look, press the pedal until it is seen to part. At a vessel that spurts: over it, look, down onto it, press the
+// look, lift, look, press the pedal until it is seen to part. At a vessel that spurts: over it, look, down onto it, press the
 // pedal until it is seen to be dry, draw back. A strand that is not seen to come along is tried again, lower.
 //
 // Knows nothing but the Percept, and the shape of the hook. Frame T, m. Thread: the hand task's, once a loop period;
@@ -21,7 +21,19 @@ class HookJob : public HandWork {
               HandRandom& random) override;
 
  private:
-  enum class Step : std::uint8_t { kDrawBack, kReach, kLook, kAdvance, kCheck, kSlide, kLift, kWeigh, kBurn, kPress };
+  enum class Step : std::uint8_t {
+    kDrawBack,
+    kReach,
+    kLook,
+    kAdvance,
+    kCheck,
+    kSlide,
+    kUnder,
+    kLift,
+    kWeigh,
+    kBurn,
+    kPress
+  };
   void enter(Step step);
   void go(Step step, const Percept& percept, const Vec3& to_T, const HandIntent& intent, HandRandom& random);
   void rise(const Percept& percept, double way_m, const HandIntent& intent);
@@ -30,6 +42,7 @@ class HookJob : public HandWork {
   Vec3 down_T(const Percept& percept) const;
   void arrive(const Percept& percept, HandIntent& intent, HandRandom& random);
   void look(const Percept& percept, const HandIntent& intent, HandRandom& random);
+  void lift(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void weigh(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void burn(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent);
 
