@@ -214,7 +214,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
   hold_ = {};
   if (organ.topology() != organ_topology_) find_places(organ);
   std::vector<std::vector<RodSpring>> of_rods(ducts_.size());
-  std::vector<std::size_t> of_jaws(ducts_.size());
+  std::vector<std::size_t> of_jaws(ducts_.size()), of_hook(ducts_.size());
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
     duct.tube.lumen.begin();
@@ -232,6 +232,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       duct.hook.reach(stylus.X_TI, duct.tube.rod, of_rods[d]);
     else
       duct.hook.let_go();
+    of_hook[d] = of_rods[d].size();
   }
   if (present) use_jaws(stylus, tool, organ);
   std::vector<SolvedContacts> touches;
@@ -254,8 +255,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       if (block_.stiffness_n_per_m < grip->block().stiffness_n_per_m) block_ = grip->block();
       if (hold_.stiffness_n_per_m < grip->hold().stiffness_n_per_m) hold_ = grip->hold();
     }
-    if (duct.hook.holds())
-      duct.hook.feel(stylus.X_TI, std::span(of_rods[d]).subspan(of_jaws[d]).first<RodHook::kSprings>(), duct.tube.rod);
+    duct.hook.feel(stylus.X_TI, std::span(of_rods[d]).subspan(of_jaws[d], of_hook[d] - of_jaws[d]), duct.tube.rod);
     if (hold_.stiffness_n_per_m < duct.hook.hold().stiffness_n_per_m) hold_ = duct.hook.hold();
   }
   take_events();

@@ -22,7 +22,7 @@ class Hooked {
     std::vector<RodSpring> springs;
     hook.reach(X, rod, springs);
     rod.step(springs);
-    if (hook.holds()) hook.feel(X, springs.front(), rod);
+    hook.feel(X, springs, rod);
   }
   void move(const Vec3& from, const Vec3& to, int steps = 60) {
     for (int i = 1; i <= steps; ++i) step(from + static_cast<double>(i) / steps * (to - from));
