@@ -15,6 +15,7 @@ constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as
 constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
 constexpr double kBesideNick = 0.01;   // of a vessel's length
 constexpr double kLaidOff = 1;         // s after which a needle that was let go is replaced
+constexpr double kDry = 0.05;          // of a bleeder's lumen: less is closed, a four-hundredth of its flow
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
 
 std::array<Vec3, 3> vertices_at(const std::array<std::int32_t, 3>& corner, const TriangleSurface& surface) {
@@ -26,7 +27,11 @@ std::array<Vec3, 3> vertices_at(const std::array<std::int32_t, 3>& corner, const
 }  // namespace
 
 TissueWorld::TissueWorld(const TissueSetup& setup)
-    : organ_(setup.organ), adjacent_(setup.adjacent), tools_(setup.tools), seen_(setup.seen_T) {
+    : organ_(setup.organ),
+      adjacent_(setup.adjacent),
+      tools_(setup.tools),
+      seen_(setup.seen_T),
+      bleeders_(setup.bleeders) {
   assert(!tools_.empty());
   assert(adjacent_.size() < kMaxPatchMaterials && (adjacent_.empty() || setup.rigid.empty()));
   if (setup.soft && seen_) {
@@ -107,6 +112,8 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     actions_->tell(*soft_, frame_);
     tell_followed();
     tell_touched(newest.contacts);
+    tell_wounds();
+    tell_gap(state.X_TI.p, tool, patch);
     if (ducts_ || sheets_) clear_taken(patch);
     if (ducts_) add_ducts(patch);
     if (sheets_) add_sheets(patch);
@@ -138,6 +145,7 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
     const DuctContacts contacts{newest.contacts, thin < 0 ? -1 : thin + sheet_triangles()};
     ducts_->step(newest, contacts, sews ? probe : tool, present, *soft_, springs);
     tell_vessels();
+    open_bleeders();
     cut = cut || ducts_->grown();
   }
   if (sheets_) {
@@ -286,6 +294,34 @@ void TissueWorld::tell_vessels() {
           actions_->bleeding().clip_vessel(vessel_[duct], std::clamp(at + side, 0.0, 1.0), 1 - change.share);
         break;
     }
+  }
+}
+
+void TissueWorld::open_bleeders() {
+  if (bleeders_.empty() || !bleeds_.empty() || ducts_->any_whole()) return;
+  for (const BleederSetup& bleeder : bleeders_) {
+    const MaterialPoint place = soft_->nearest_place(soft_->place_T(soft_->shares_within(bleeder.place_T)));
+    bleeds_.push_back(actions_->bleeding().open_vessel(
+        place, {.supply = Supply::kArterial, .radius_m = bleeder.radius_m, .feed_m = bleeder.feed_m}));
+  }
+}
+
+void TissueWorld::tell_wounds() {
+  frame_.wound_count = static_cast<std::int32_t>(bleeds_.size());
+  for (std::size_t i = 0; i < bleeds_.size(); ++i) {
+    const WoundState wound = actions_->bleeding().wound(bleeds_[i]);
+    frame_.wound[i] = {wound.place_T, wound.rate_ml_per_min, wound.lost_ml, wound.open_share > kDry ? 1 : 0};
+  }
+}
+
+/// Of organ and neighbours, not of ducts and sheets.
+void TissueWorld::tell_gap(const Vec3& tip_T, const Tool& tool, const ContactPatch& patch) {
+  frame_.tip_gap_m = std::numeric_limits<double>::infinity();
+  const double tip_radius = tool.shape.jaw_length_m > 0 ? tool.shape.jaw_radius_m : tool.shape.radius_m;
+  for (std::int32_t i = 0; i < patch.count; ++i) {
+    if (patch.triangle[static_cast<std::size_t>(i)].id >= first_thin_triangle_) continue;
+    const Vec3 nearest = closest_point_on_triangle(tip_T, patch.corners(i));
+    frame_.tip_gap_m = std::min(frame_.tip_gap_m, (nearest - tip_T).norm() - tip_radius);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "haptics/contact/instrument.h"
 #include "tissue/collision/patch_extraction.h"
+#include "tissue/interaction/bleeder_setup.h"
 #include "tissue/interaction/breathing.h"
 #include "tissue/interaction/instrument_actions.h"
 #include "tissue/interaction/suturing.h"
@@ -49,6 +50,7 @@ struct TissueSetup {
   std::vector<SheetSetup> sheets = {};  ///< only with `soft`
   /// A needle that the driver brings in, its X_TN and the thread's way found then; only with `soft`. nullptr: none.
   std::shared_ptr<const SutureSetup> suture = nullptr;
+  std::vector<BleederSetup> bleeders = {};  ///< at most kMaxWoundsSeen; only with `ducts`
   /// Places on the organ at rest whose way the frame tells, at most kMaxFollowedPlaces; only with `soft`.
   std::vector<SurfacePlace> followed = {};
 };
@@ -79,6 +81,10 @@ class TissueWorld final : public World {
   void hang_vessels();
   /// Cuts and clips of vessels, for the blood.
   void tell_vessels();
+  /// Bleeders spurt when the last duct has been divided.
+  void open_bleeders();
+  void tell_wounds();
+  void tell_gap(const Vec3& tip_T, const Tool& tool, const ContactPatch& patch);
   /// The ducts' part in patch and frame.
   void add_ducts(ContactPatch& patch);
   void add_sheets(ContactPatch& patch);
@@ -133,6 +139,8 @@ class TissueWorld final : public World {
   std::vector<NodePlace> nodes_;      ///< of the organ, then theirs
   std::vector<std::string> changes_;  ///< of organ, ducts and suture, in order
   // With ducts_:
+  std::vector<BleederSetup> bleeders_;
+  std::vector<WoundId> bleeds_;       ///< their wounds, since they have opened
   std::vector<std::int32_t> vessel_;  ///< of each in Bleeding's network; -1: carries no blood
   std::size_t organ_cuts_kept_ = 0;
   std::uint64_t last_topology_ = 0;  ///< of the organ before its last cut, when sheets and ducts began at

@@ -45,7 +45,8 @@ class Attempt:
         events = [dict(t=number(r["t_s"]), type=r["type"], severity=r["severity"], object=int(r["object"]),
                        value=number(r["value"])) for r in rows(folder / "events.csv")]
         samples = [dict(t=number(r["t_s"]), tip=vector(r, "tip", "m"), force=math.hypot(*vector(r, "force", "n")),
-                        grip=number(r["grip_n"]), contact=r["contact"] in ("1", "true")) for r in rows(folder / "trace.csv")]
+                        grip=number(r["grip_n"]), contact=r["contact"] in ("1", "true"),
+                        pedal=r["pedal"] in ("1", "true")) for r in rows(folder / "trace.csv")]
         # Only what lies between START and DONE or TIMEOUT is graded.
         start = next((e["t"] for e in events if e["type"] == "START"), None)
         end = next((e["t"] for e in events if start is not None and e["type"] in ("DONE", "TIMEOUT")
@@ -306,6 +307,39 @@ def clips_correct_share(attempt):
 def clip_errors(attempt):
     close = sum(e["type"] == "DIVIDED" and e["severity"] != "info" for e in attempt.events)
     return attempt.count("CLIP_WASTED", "WRONG_STRUCTURE") + close
+def of_strands(value):
+    """None until a strand was divided."""
+    return lambda attempt: value(attempt) if attempt.count("STRAND_DIVIDED") else None
+
+
+def safe_energy_share(attempt):
+    total = 0.0
+    for i in range(8):
+        def seconds(kind):
+            return sum(e["value"] for e in attempt.events if e["type"] == kind and e["object"] == i)
+        safe = seconds("CURRENT_USED")
+        if safe > 0:
+            total += safe / (safe + seconds("UNSAFE_CURRENT")) / 8
+    return total
+
+
+def spurts_at(attempt):
+    return next((e["t"] for e in attempt.events if e["type"] == "SPURTS"), None)
+
+
+def spurted_ml(attempt):
+    since = spurts_at(attempt)
+    told = [e["value"] for e in attempt.events
+            if since is not None and e["t"] >= since and e["type"] in ("SPURTS", "BLEEDING", "SEALED")]
+    return told[-1] if told else None
+
+
+def strand_current(attempt):
+    until = spurts_at(attempt)
+    down = sum(s["pedal"] and (until is None or s["t"] < until) for s in attempt.samples)
+    return down / attempt.rate_hz / attempt.count("STRAND_DIVIDED")
+
+
 def of_pegs(attempt, *kinds):
     """Count of these events; None before a ring was on a peg."""
     return attempt.count(*kinds) if attempt.count("BUMP", "TARGET_HELD") else None
@@ -371,6 +405,11 @@ METRICS = {
     "exit_error_m": mean_of_pairs("BITE_THROUGH"),
     "needle_angle_deg": mean_of_pairs("NEEDLE_DRAWN"),
     "needle_redos": needle_redos,
+    "safe_energy_share": of_strands(safe_energy_share),
+    "strands_lifted_share": of_strands(
+        lambda a: sum(e["type"] == "STRAND_DIVIDED" and e["severity"] == "info" for e in a.events) / 5),
+    "spurted_ml": spurted_ml,
+    "strand_current_s": of_strands(strand_current),
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

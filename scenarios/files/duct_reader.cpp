@@ -10,7 +10,7 @@ namespace {
 
 using file_units::kMilli;
 
-constexpr std::size_t kMostDucts = 4, kMostSheets = 2;
+constexpr std::size_t kMostDucts = 5, kMostSheets = 2;
 constexpr double kLeastHinge = 0.005, kMostTriangles = 800;
 constexpr double kKilo = 1e3;
 constexpr double kLeastLength = 0.010, kLeastStep = 0.001;  // m of a path, and between two of its points
@@ -56,7 +56,7 @@ std::vector<DuctPlan> read_ducts(StrictTable& document) {
     DuctPlan duct = read_duct(table);
     const bool twice = std::any_of(ducts.begin(), ducts.end(), [&](const DuctPlan& d) { return d.name == duct.name; });
     if (twice) table.fail("name", "two ducts are called '" + duct.name + "'");
-    if (ducts.size() == kMostDucts) table.fail("name", "there are more than four ducts");
+    if (ducts.size() == kMostDucts) table.fail("name", "there are more than five ducts");
     ducts.push_back(std::move(duct));
   }
   return ducts;

@@ -201,6 +201,16 @@ constexpr MetricDefinition kCatalogue[] = {
      "mean of NEEDLE_DRAWN", kLess},
     {"needle_redos", "1", "needles grasped again or at the wrong place, bites undone, needles dropped",
      "count of NEEDLE_GRIPPED that is not info + count of BITE_UNDONE + count of NEEDLE_LOST", kLess, kErrors},
+    {"safe_energy_share", "1",
+     "safe current over safe and unsafe, mean over the five strands and three vessels; an object without any has 0",
+     "mean over 8 objects of CURRENT_USED / (CURRENT_USED + UNSAFE_CURRENT)", kMore, kErrors},
+    {"strands_lifted_share", "1", "strands that were parted by current while lifted high enough, of the five",
+     "count of STRAND_DIVIDED that is info / 5", kMore, kErrors},
+    {"spurted_ml", "mL", "blood lost by all vessels that spurted, as last told",
+     "the last of SPURTS, BLEEDING and SEALED, once there is a SPURTS", kLess, kErrors},
+    {"strand_current_s", "s", "time of the pedal while a strand was lit, mean over the strands that current parted",
+     "pedal from START to SPURTS / strands divided", kLess},
+    {"sealed_late", "1", "vessels that bled for longer than they should", "count of SEALED_LATE", kLess, kErrors},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
@@ -298,6 +308,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
                    window ? std::optional<double>(window->second - window->first) : std::nullopt, metrics);
   add_clip_metrics(graded_events, metrics);
   add_needle_metrics(graded_events, metrics);
+  add_dissect_metrics(graded, graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

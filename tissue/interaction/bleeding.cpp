@@ -105,6 +105,16 @@ WoundId Bleeding::add(Wound wound, double area_m2, double depth_m) {
   return static_cast<WoundId>(wounds_.size()) - 1;
 }
 
+WoundId Bleeding::open_vessel(const MaterialPoint& place, const VesselSize& size) {
+  auto wound = wound_at(place);
+  if (!wound || !(size.radius_m > 0) || !(size.feed_m > 0)) return -1;
+  wound->area = std::numbers::pi * size.radius_m * size.radius_m;
+  wound->met.assign(options_.vessels.size(), true);
+  wound->vessels.push_back({size});
+  wounds_.push_back(std::move(*wound));
+  return static_cast<WoundId>(wounds_.size()) - 1;
+}
+
 void Bleeding::widen(Wound& wound, const Wound& by) const {
   const double before = wound.area / (wound.area + by.area);
   for (double& weight : wound.weights) weight *= before;
@@ -370,7 +380,10 @@ WoundState Bleeding::wound(WoundId id) const {
                  .pressed = wound.was_pressed,
                  .lost_ml = wound.lost / kMillilitre,
                  .rate_ml_per_min = wound.mean_flow * 60 / kMillilitre};
-  for (const CutVessel& vessel : wound.vessels) out.open_vessels += vessel.flow > 0 ? 1 : 0;
+  for (const CutVessel& vessel : wound.vessels) {
+    out.open_vessels += vessel.flow > 0 ? 1 : 0;
+    out.open_share = std::max(out.open_share, vessel.lumen);
+  }
   if (wound.end >= 0 && vessels_.open_ends()[static_cast<std::size_t>(wound.end)].flow_m3_per_s > 0) ++out.open_vessels;
   return out;
 }

@@ -72,6 +72,7 @@ struct WoundState {
   double oozing_m2 = 0;           ///< what of the area is neither clotted nor coagulated
   std::int32_t vessels = 0;       ///< cut vessels in it
   std::int32_t open_vessels = 0;  ///< of which bleed now
+  double open_share = 0;          ///< of the lumen of the most open of those without a network
   bool pressed = false;           ///< in the last step
   double lost_ml = 0;
   double rate_ml_per_min = 0;  ///< mean of the last beats
@@ -102,6 +103,8 @@ class Bleeding {
   /// that is not positive
   WoundId add_wound(const MaterialPoint& place, double area_m2, double depth_m);
   WoundId add_wound(std::span<const std::int32_t> vertices, double area_m2, double depth_m);
+  /// Opens a vessel of that size alone, without a cut: a wound of its own. @returns as add_wound()
+  WoundId open_vessel(const MaterialPoint& place, const VesselSize& size);
   /// Opens a vessel of the network: its end at `from` bleeds at the one place, that at `to` at the other.
   /// @returns the first of two numbers that follow each other; -1 as above
   WoundId cut_vessel(std::int32_t vessel, double at, const MaterialPoint& from_end, const MaterialPoint& to_end);

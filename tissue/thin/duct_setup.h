@@ -23,6 +23,7 @@ struct DuctSetup {
   TissueSolid material;
   std::array<DuctHold, 2> ends{DuctHold::kOrgan, DuctHold::kFixed};  ///< of the first and the last point
   DuctContent content = DuctContent::kNothing;
+  bool slack = false;  ///< drawn without the tension that ducts and vessels have at rest
 };
 
 }  // namespace trocar

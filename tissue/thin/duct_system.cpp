@@ -111,6 +111,7 @@ DuctSystem::DuctSystem(std::span<const DuctSetup> ducts, const SoftOrgan& organ,
       RodSurface touched(tube.rod, options_.contact_sides);
       ducts_.push_back(
           {setup, std::move(tube), std::move(touched), RodGrip(options_.grip), RodGrip(clasp_options(options_))});
+      ducts_.back().hook = RodHook(options_.hook);
     } catch (const InputError& error) {
       throw InputError("duct '" + setup.name + "': " + error.what());
     }
@@ -213,7 +214,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
   hold_ = {};
   if (organ.topology() != organ_topology_) find_places(organ);
   std::vector<std::vector<RodSpring>> of_rods(ducts_.size());
-  std::vector<std::size_t> of_jaws(ducts_.size());
+  std::vector<std::size_t> of_jaws(ducts_.size()), of_hook(ducts_.size());
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
     duct.tube.lumen.begin();
@@ -227,11 +228,16 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       grip->press(duct.tube.lumen);
     }
     of_jaws[d] = of_rods[d].size();
+    if (present && tool.kind == InstrumentKind::kHook)
+      duct.hook.reach(stylus.X_TI, duct.tube.rod, of_rods[d]);
+    else
+      duct.hook.let_go();
+    of_hook[d] = of_rods[d].size();
   }
   if (present) use_jaws(stylus, tool, organ);
   std::vector<SolvedContacts> touches;
   for (std::size_t d = 0; d < ducts_.size(); ++d) touches.push_back(contacts_of(d, contacts));
-  touched_ = present ? borne_most(touches) : -1;
+  touched_ = hooked() >= 0 ? hooked() : present ? borne_most(touches) : -1;
   if (present && touched_ < 0) touched_ = surrounded(stylus, tool);
   if (present) weld(stylus, tool, touches);
   anchor(organ);
@@ -249,6 +255,8 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       if (block_.stiffness_n_per_m < grip->block().stiffness_n_per_m) block_ = grip->block();
       if (hold_.stiffness_n_per_m < grip->hold().stiffness_n_per_m) hold_ = grip->hold();
     }
+    duct.hook.feel(stylus.X_TI, std::span(of_rods[d]).subspan(of_jaws[d], of_hook[d] - of_jaws[d]), duct.tube.rod);
+    if (hold_.stiffness_n_per_m < duct.hook.hold().stiffness_n_per_m) hold_ = duct.hook.hold();
   }
   take_events();
   for (Duct& duct : ducts_) duct.tube.clips.step(duct.tube.rod, duct.tube.lumen);
@@ -287,8 +295,9 @@ void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const Sof
   const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
   for (std::size_t d = 0; d < ducts_.size(); ++d)
     between_[d] =
-        jaws && (ducts_[d].grip.state() != GripState::kEmpty || ducts_[d].clasp.state() != GripState::kEmpty ||
-                 !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty());
+        ducts_[d].hook.holds() ||
+        (jaws && (ducts_[d].grip.state() != GripState::kEmpty || ducts_[d].clasp.state() != GripState::kEmpty ||
+                  !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);
   if (tool.kind == InstrumentKind::kClipApplier) use_applier(stylus, all, organ);
@@ -331,10 +340,45 @@ void DuctSystem::use_scissors(const StylusState& stylus, std::span<const ClipSur
   }
 }
 
+/// The one that pulls hardest on it.
+std::int32_t DuctSystem::hooked() const {
+  std::int32_t found = -1;
+  double most = -1;
+  for (std::size_t d = 0; d < ducts_.size(); ++d)
+    if (ducts_[d].hook.holds() && ducts_[d].hook.load_n() > most)
+      most = ducts_[d].hook.load_n(), found = static_cast<std::int32_t>(d);
+  return found;
+}
+
+/// Current through a rod that lies on the foot seals it, and then parts it; while it hops off, it does not cool.
+void DuctSystem::burn_through(bool live, std::size_t d) {
+  Duct& duct = ducts_[d];
+  if (!live) {
+    duct.hot_s = 0;
+    duct.seared = false;
+    return;
+  }
+  if (duct.hook.load_n() > options_.least_force_n) duct.hot_s += duct.tube.rod.options().step_s;
+  const double arc = duct.hook.arc_m();
+  if (!duct.seared && duct.hot_s >= options_.hook_seals_s) {
+    duct.seared = true;
+    change({DuctChange::Kind::kSealed, static_cast<std::int32_t>(d), arc});
+  }
+  if (duct.hot_s < options_.hook_parts_s) return;
+  duct.hot_s = 0;
+  duct.seared = false;
+  change({DuctChange::Kind::kCut, static_cast<std::int32_t>(d), arc});
+  ++cuts_;
+}
+
 void DuctSystem::weld(const StylusState& stylus, const Tool& tool, std::span<const SolvedContacts> touches) {
   const bool live = stylus.pedal && describe(tool.kind).powered && tool.kind != InstrumentKind::kSuction;
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
+    if (duct.hook.holds()) {
+      burn_through(live, d);
+      continue;
+    }
     double arc = -1;
     if (live && holds(duct.grip.state()) && !duct.grip.arcs().empty()) {
       const std::vector<double> arcs = duct.grip.arcs();
@@ -447,6 +491,13 @@ double DuctSystem::slipped_m() const {
 
 void DuctSystem::add_nodes(std::vector<NodePlace>& nodes_T) const {
   for (const Duct& duct : ducts_) duct.tube.add_nodes(nodes_T);
+}
+
+bool DuctSystem::any_whole() const {
+  return std::any_of(ducts_.begin(), ducts_.end(), [](const Duct& duct) {
+    return std::none_of(duct.openings.begin(), duct.openings.end(),
+                        [](const DuctMark& mark) { return mark.kind != DuctMark::Kind::kNick; });
+  });
 }
 
 std::vector<DuctMark> DuctSystem::marks() const {

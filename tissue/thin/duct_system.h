@@ -29,6 +29,7 @@
 #include "tissue/thin/clip_applier.h"
 #include "tissue/thin/duct_tube.h"
 #include "tissue/thin/rod_grip.h"
+#include "tissue/thin/rod_hook.h"
 #include "tissue/thin/rod_scissors.h"
 #include "tissue/tissue_frame.h"
 
@@ -46,9 +47,12 @@ struct DuctSystemOptions {
   int contact_sides = 6;
   double damping_s_per_m = 0.5;
   double weld_s = 2;             ///< of a live instrument on a rod, until it is sealed (a choice)
+  double hook_seals_s = 0.6;     ///< of a live hook that has a rod in its crook, until it is sealed, and
+  double hook_parts_s = 1.0;     ///< until it is parted there: thin and taut, it goes sooner (choices)
   double bile_ml_per_min = 0.6;  ///< that a liver makes: 0.35 to 0.7 (unchecked)
   double least_force_n = 1e-3;   ///< of a contact that passes current
   RodGripOptions grip = {};
+  RodHookOptions hook = {};
   ClipApplierOptions applier = {};
   ScissorsOptions scissors = {};
 };
@@ -80,7 +84,7 @@ class DuctSystem {
   std::span<const std::int32_t> duct_of_triangle() const { return duct_of_triangle_; }
   bool grown() const { return grown_; }
   ContactMaterial material(std::size_t duct) const;
-  /// Those between the jaws are no contact. @param triangle of contact()
+  /// Those between the jaws or in the crook are no contact. @param triangle of contact()
   bool felt(std::int32_t triangle) const;
 
   GripState grip() const;
@@ -92,7 +96,8 @@ class DuctSystem {
   void add_nodes(std::vector<NodePlace>& nodes_T) const;      ///< of all, for TissueShape
   /// Clips that are on, then cuts, tears and nicks, duct by duct.
   std::vector<DuctMark> marks() const;
-  /// Which duct the strongest contact of the last step bore on, else which alone lay between the jaws; -1: none.
+  /// Which duct lay in the crook of a hook, else the strongest contact of the last step bore on, else which alone lay
+  /// between the jaws; -1: none.
   std::int32_t touched() const { return touched_; }
   std::vector<Pose> clip_poses() const;  ///< of all clips that are on, frame of clip_model()
   /// Share of a duct's lumen that the jaws press shut, and where. nullopt: they do not.
@@ -100,6 +105,8 @@ class DuctSystem {
   std::span<const DuctChange> changed() const { return changed_; }  ///< in the last step
   /// What the closing of jaws in the last step came to: 0, or why nothing came of it (refusal_code).
   std::optional<std::int32_t> closing() const { return closing_; }
+  /// Is one of them not yet divided?
+  bool any_whole() const;
   std::int32_t cuts() const { return cuts_; }  ///< with partial ones
   std::int32_t tears() const { return tears_; }
   std::int32_t clips() const { return clips_; }
@@ -116,7 +123,9 @@ class DuctSystem {
     std::array<std::int32_t, 2> vertex{-1, -1};  ///< of the organ, for each end; -1: fixed
     std::array<NodeShares, 2> place{};
     std::array<Vec3, 2> rest_load{Vec3::Zero(), Vec3::Zero()};  ///< on what the ends hang on, before a run
+    RodHook hook = RodHook();
     double hot_s = 0;
+    bool seared = false;                  ///< sealed by the hook, in this go of it
     std::vector<DuctMark> openings = {};  ///< cuts, tears and nicks
   };
   /// A run of vertices and triangles of one duct's tube in contact_.
@@ -133,6 +142,9 @@ class DuctSystem {
   void use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ);
   void use_applier(const StylusState& stylus, std::span<const ClipSurroundings::Rod> rods, const SoftOrgan& organ);
   void use_scissors(const StylusState& stylus, std::span<const ClipSurroundings::Rod> rods);
+  /// @return the duct that is in the crook of a hook; -1: none
+  std::int32_t hooked() const;
+  void burn_through(bool live, std::size_t duct);
   void weld(const StylusState& stylus, const Tool& tool, std::span<const SolvedContacts> touches);
   void change(const DuctChange& change);
   SolvedContacts contacts_of(std::size_t duct, const DuctContacts& contacts) const;
@@ -150,7 +162,7 @@ class DuctSystem {
   TriangleSurface contact_;
   std::vector<std::int32_t> duct_of_triangle_;
   std::vector<Piece> pieces_;
-  std::vector<bool> between_;  ///< the jaws, of each duct
+  std::vector<bool> between_;  ///< the jaws or in the crook, of each duct
   bool grown_ = false;
   std::int32_t touched_ = -1;
   GripBlock block_;

@@ -20,6 +20,7 @@ RodOptions options_of(const DuctSetup& setup, double step_s) {
   RodOptions options = rod_options(setup.material, setup.outer_radius_m, setup.wall_m);
   options.gravity_m_s2 = {0, 0, -kGravity};
   options.step_s = step_s;
+  if (setup.slack) options.pre_strain = 0;
   return options;
 }
 

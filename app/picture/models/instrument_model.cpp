@@ -17,10 +17,10 @@ constexpr double kBeyond = 0.8e-3;  // m that blades and clip jaws reach beyond 
 
 PictureMesh toothed_jaw(double radius_m);
 
-/// A wire of steel bent into an L, its foot towards +x, in a sheath that narrows to it.
+/// A wire of steel bent into an L, its foot towards -y (RodHookOptions), in a sheath that narrows to it.
 PictureMesh hook_body(double radius_m, double length_m) {
   const double r = radius_m, end = -11.5 * kMilli, wire = 0.55 * kMilli, front = 2.2 * kMilli, bend = 1.2 * kMilli,
-               foot = 3.6 * kMilli;
+               foot = 6.0 * kMilli;
   PictureMesh mesh = turned({{-length_m, r, 0},
                              {end - 3.2 * kMilli, r, 0},
                              {end - 2.6 * kMilli, 0.97 * r, 0},
@@ -42,22 +42,22 @@ PictureMesh hook_body(double radius_m, double length_m) {
   for (int k = 1; k <= kBends; ++k) {
     const double a = 0.5 * std::numbers::pi * k / kBends;
     way.push_back(
-        {{bend * (1 - std::cos(a)), 0, straight_end + bend * std::sin(a)}, {std::sin(a), 0, std::cos(a)}, wire});
+        {{0, -bend * (1 - std::cos(a)), straight_end + bend * std::sin(a)}, {0, -std::sin(a), std::cos(a)}, wire});
   }
   const double z = front - wire;
-  for (const auto& [x, radius] : {std::pair(foot - 0.5 * kMilli, wire),
-                                  {foot - 0.15 * kMilli, 0.8 * wire},
-                                  {foot, 0.4 * wire},
-                                  {foot + 0.02 * kMilli, 0.0}})
-    way.push_back({{x, 0, z}, Vec3::UnitX(), radius});
+  for (const auto& [out, radius] : {std::pair(foot - 0.5 * kMilli, wire),
+                                    {foot - 0.15 * kMilli, 0.8 * wire},
+                                    {foot, 0.4 * wire},
+                                    {foot + 0.02 * kMilli, 0.0}})
+    way.push_back({{0, -out, z}, -Vec3::UnitY(), radius});
   constexpr int kAround = 14;
   append(mesh, loft(
                    static_cast<int>(way.size()), kAround,
                    [&](int i, int j) {
                      const Station& s = way[static_cast<std::size_t>(i)];
                      const double angle = 2 * std::numbers::pi * j / kAround;
-                     const Vec3 across = s.along.cross(Vec3::UnitY());
-                     return Vec3(s.at + s.radius * (std::cos(angle) * Vec3::UnitY() + std::sin(angle) * across));
+                     const Vec3 across = s.along.cross(Vec3::UnitX());
+                     return Vec3(s.at + s.radius * (std::cos(angle) * Vec3::UnitX() + std::sin(angle) * across));
                    },
                    [](int) { return 1.0F; }));
   return mesh;

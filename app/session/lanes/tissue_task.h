@@ -15,6 +15,7 @@
 #include "app/session/setup/scene.h"
 #include "haptics/exchange/ring.h"
 #include "scenarios/director/director.h"
+#include "scenarios/kinds/dissect/dissect_layout.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -89,6 +90,7 @@ class TissueTask final : public Task {
                                                      .ducts = scene.ducts,
                                                      .sheets = scene.sheets,
                                                      .suture = scene.suture,
+                                                     .bleeders = bleeders_of(scene.setup.exercise, scene.board),
                                                      .followed = followed(scene)});
   }
   /// Targets on an organ that gives way go along with it.

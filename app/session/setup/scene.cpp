@@ -231,7 +231,8 @@ void hang_ducts(Scene& scene, const TissueTable& tissues) {
       continue;
     }
     scene.ducts.push_back({plan.name, std::move(*path), plan.outer_radius_m, plan.wall_m,
-                           stiffness_choice(tissues.find(plan.material), scene.setup.tissue), plan.ends, plan.content});
+                           stiffness_choice(tissues.find(plan.material), scene.setup.tissue), plan.ends, plan.content,
+                           plan.content == DuctContent::kNothing});
   }
   scene.thin_T = drawn_tubes(scene.ducts);
 }

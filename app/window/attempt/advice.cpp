@@ -57,6 +57,8 @@ std::string critical_advice(const Advised& a) {
     return a.words("Try next: close the jaws fully on the needle, and keep them shut until it is in the tissue.");
   if (event == event_type::kTear)
     return a.words("Try next: only roll once the point is in; whoever pushes across the needle tears.");
+  if (event == event_type::kPerforated)
+    return a.words("Try next: let go of the pedal before you move the hook over the liver.");
   return a.words("Try next: the same again, slower.");
 }
 
@@ -165,6 +167,13 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "clips_correct_share")
     return words("Try next: before you close, look: straight across, tips beyond, clear of the clip beside it.");
   if (m == "clip_errors") return words("Try next: go in deeper until the tips show beyond, and only then close.");
+  if (m == "safe_energy_share")
+    return words("Try next: lift, look, and only then press; let go as soon as the strand parts or it is dry.");
+  if (m == "strands_lifted_share") return words("Try next: lift each strand clear of the liver before the current.");
+  if (m == "spurted_ml")
+    return words("Try next: go straight to the vessel, press the tip on it, and stay until it is dry.");
+  if (m == "strand_current_s")
+    return words("Try next: let the strand lie on the foot of the hook, then one short press.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
@@ -256,6 +265,8 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "exit_error_m") return words("Out {0} beside the dot on average.", {row.value});
   if (m == "needle_angle_deg") return words("{0} off the needle's own way on average.", {row.value});
   if (m == "needle_redos") return words(row.raw == 1 ? "Once done again." : "{0} times done again.", {row.value});
+  if (m == "spurted_ml") return words("{0} of blood lost.", {row.value});
+  if (m == "strand_current_s") return words("{0} of current for each strand on average.", {row.value});
   if (m == "cut_off_middle_m") return words("Cut {0} off the middle on average.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);
   if (m == "horizon_share") return words("Level for {0} of the time.", {row.value});

@@ -150,6 +150,13 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kBiteUndone) return words("Drawn back out");
   if (type == event_type::kNeedleDrawn) return words("Needle drawn through");
   if (type == event_type::kNeedleLost) return words("Needle dropped");
+  if (type == event_type::kStrandLifted) return words("Strand lifted");
+  if (type == event_type::kStrandDivided) return words("Strand divided");
+  if (type == event_type::kUnsafeCurrent) return words("Unsafe current");
+  if (type == event_type::kSpurts) return words("Vessels spurt");
+  if (type == event_type::kSealed) return words("Vessel sealed");
+  if (type == event_type::kSealedLate) return words("Bled for too long");
+  if (type == event_type::kPerforated) return words("Cut into the liver");
   if (type == event_type::kPortHold) return words("Too close to the port");
   if (type == event_type::kDeadmanOpen) return words("Deadman opened");
   if (type == event_type::kMarked) return words("Marked by you");

@@ -55,6 +55,7 @@ std::string critical_words(const Translator& words, const AttemptResult& result,
   if (event.type == event_type::kCutTooSoon)
     return words("Opened at {0} s without two clips before the cut and one beyond it.", {t});
   if (event.type == event_type::kWrongStructure) return words("What must be spared was clipped or cut at {0} s.", {t});
+  if (event.type == event_type::kPerforated) return words("The live hook was drawn into the liver at {0} s.", {t});
   if (event.type == event_type::kBleeding)
     return words("At {0} s {1} mL of blood were lost.", {t, words.number(event.value, 0)});
   if (event.type == event_type::kNeedleLost)

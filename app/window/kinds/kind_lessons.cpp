@@ -14,13 +14,14 @@ KindLesson find_lesson();
 KindLesson retract_lesson();
 KindLesson palpate_lesson();
 KindLesson clip_lesson();
+KindLesson dissect_lesson();
 KindLesson pegs_lesson();
 KindLesson needle_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(), camera_lesson(),
-                                               pegs_lesson(),    wire_lesson(),  find_lesson(),  retract_lesson(),
-                                               palpate_lesson(), clip_lesson(),  needle_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(),  camera_lesson(),
+                                               pegs_lesson(),    wire_lesson(),  find_lesson(),   retract_lesson(),
+                                               palpate_lesson(), clip_lesson(),  needle_lesson(), dissect_lesson()};
   return lessons;
 }
 

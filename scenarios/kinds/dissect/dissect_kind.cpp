@@ -1,0 +1,88 @@
+#include "scenarios/kinds/dissect/dissect_kind.h"
+
+#include <memory>
+
+#include "scenarios/director/scoring_context.h"
+#include "scenarios/files/file_units.h"
+#include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/dissect/dissect_layout.h"
+#include "scenarios/kinds/dissect/dissect_rules.h"
+#include "scenarios/kinds/dissect/dissect_task.h"
+#include "scenarios/kinds/touch/touch_reader.h"
+
+namespace trocar {
+namespace {
+
+using file_units::kDegrees, file_units::kMilli;
+
+std::shared_ptr<const DissectRules> read_dissect_rules(StrictTable table) {
+  DissectRules rules;
+  std::tie(rules.bed_along_m, rules.bed_across_m) = table.pair("bed_mm", 10, 200);
+  rules.bed_along_m *= kMilli;
+  rules.bed_across_m *= kMilli;
+  rules.span_m = table.number("span_mm", 10, 60) * kMilli;
+  rules.bow_m = table.number("bow_mm", 0, 20) * kMilli;
+  rules.lift_m = table.number("lift_mm", 0.5, 30) * kMilli;
+  rules.near_m = table.number("near_mm", 0, 20) * kMilli;
+  if (rules.near_m >= rules.lift_m) table.fail("near_mm", "'near_mm' must be below 'lift_mm'");
+  rules.forgiven_s = table.number("forgiven_s", 0, 5);
+  rules.counted_s = table.number("counted_s", 0.1, 20);
+  rules.beside_m = table.number("beside_mm", 1, 20) * kMilli;
+  rules.field_m = table.number("field_mm", 10, 200) * kMilli;
+  rules.seal_s = table.number("seal_s", 1, 60);
+  rules.vessel_radius_m = table.number("vessel_mm", 0.1, 2.5) / 2 * kMilli;
+  rules.feed_m = table.number("feed_mm", 1, 1000) * kMilli;
+  rules.perforated_m2 = table.number("perforated_mm2", 0, 1000) * kMilli * kMilli;
+  rules.turn_rad = table.number("turn_deg", 0, 60) * kDegrees;
+  rules.shift_m = table.number("shift_mm", 0, 50) * kMilli;
+  table.finish();
+  return std::make_shared<const DissectRules>(rules);
+}
+
+void read_dissect(StrictTable& document, Exercise& exercise) {
+  if (exercise.layout.count != kDissectAims)
+    document.fail("targets", "'count' must be 8: five strands and three vessels");
+  // Strands on an organ that stands still cannot be lifted, and nothing bleeds there.
+  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_surface(document.table("surface"), exercise);
+  exercise.own = read_dissect_rules(document.table("dissect"));
+}
+
+void read_dissect_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel&) {
+  if (exercise.ducts.size() != kStrands) keys.table.fail("name", "the exercise needs five 'ducts': the strands");
+}
+
+std::vector<std::unique_ptr<ExerciseTask>> dissect_tasks(const Exercise& exercise, const ExerciseLevel& level,
+                                                         const Board& board) {
+  std::vector<std::unique_ptr<ExerciseTask>> tasks;
+  tasks.push_back(std::make_unique<DissectTask>(exercise, level, board));
+  return tasks;
+}
+
+}  // namespace
+
+KindDescription dissect_kind() {
+  return {.kind = ExerciseKind::kDissect,
+          .name = "dissect",
+          .on_organ = true,
+          .oriented = false,
+          .jaws_hold = false,
+          .tool = ToolKind::kProbe,
+          .watched = WatchedForce::kTip,
+          .limits =
+              [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
+                return JudgedForces{exercise.hard_force_n, {}};
+              },
+          .read_targets =
+              [](StrictTable& targets, TargetLayout& layout) {
+                layout.radius_m = targets.number("diameter_mm", 1, 50) / 2 * kMilli;
+                layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * kDegrees;
+              },
+          .read = read_dissect,
+          .read_level = read_dissect_level,
+          .lay_out = lay_out_dissection,
+          .tasks = dissect_tasks,
+          .account = account_held_targets};
+}
+
+}  // namespace trocar
