@@ -17,8 +17,8 @@ constexpr double kOverNeedle = 0.020;                     // m along the shaft a
 constexpr double kOverDot = 0.0025;                       // m over the tissue, at which the needle is looked at
 constexpr double kNeedleLate = 0.16, kNeedleLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
 constexpr double kQuickestNeedle = 0.15;                  // s of a reach
-constexpr double kPressOn = 0.0025;  // m by which tissue gives way before the point goes in, as a person expects
-constexpr double kClear = 0.010;     // m to which the needle is lifted
+constexpr double kPressOn = 0.0025;     // m by which tissue gives way before the point goes in, as a person expects
+constexpr double kNeedleClear = 0.010;  // m to which the needle is lifted
 constexpr double kKeepGain = 2, kKeepRest = 0.0003;  // 1/s by which it is kept over the dot; m that are not seen
 constexpr double kPressTime = 0.8;                   // s, before speed_factor
 constexpr double kRollSpeed = 45 * kDegree;          // rad/s, before speed_factor
@@ -56,7 +56,7 @@ void NeedleJob::start(const Percept& percept, const HandIntent& intent, HandRand
   corrections_ = 0;
   if (cue_ == Cue::kTakeNeedle) return enter(Step::kOpen);
   if (cue_ == Cue::kPull) return begin_roll(Step::kDraw, percept, kDrawRoll, intent, random);
-  straight(Step::kLift, intent, kClear * Vec3::UnitZ());
+  straight(Step::kLift, intent, kNeedleClear * Vec3::UnitZ());
 }
 
 void NeedleJob::straight(Step step, const HandIntent& intent, const Vec3& way) {
@@ -233,7 +233,7 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
       return rolled(percept, intent, random);
     case Step::kUnroll:
       roll(intent);
-      if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kClear * percept.target_normal_T);
+      if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kNeedleClear * percept.target_normal_T);
       return;
     case Step::kDraw:
       roll(intent);
