@@ -293,12 +293,14 @@ std::int32_t DuctSystem::surrounded(const StylusState& stylus, const Tool& tool)
 
 void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ) {
   const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
-  for (std::size_t d = 0; d < ducts_.size(); ++d)
-    const bool stumps = ducts_[d].setup.slack && !whole(ducts_[d]);  // they lie down before what comes
-    between_[d] = stumps || ducts_[d].hook.holds() ||
-                  (jaws && (ducts_[d].grip.state() != GripState::kEmpty ||
-                            ducts_[d].clasp.state() != GripState::kEmpty ||
-                            !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+  for (std::size_t d = 0; d < ducts_.size(); ++d) {
+    const Duct& duct = ducts_[d];
+    const bool stumps = duct.setup.slack && !whole(duct);  // they lie down before what comes
+    const bool held = duct.grip.state() != GripState::kEmpty || duct.clasp.state() != GripState::kEmpty;
+    between_[d] =
+        stumps || duct.hook.holds() ||
+        (jaws && (held || !arcs_between(duct.tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+  }
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);
   if (tool.kind == InstrumentKind::kClipApplier) use_applier(stylus, all, organ);
