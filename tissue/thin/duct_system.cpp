@@ -228,7 +228,7 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
       grip->press(duct.tube.lumen);
     }
     of_jaws[d] = of_rods[d].size();
-    if (present && tool.kind == InstrumentKind::kHook)
+    if (present && tool.kind == InstrumentKind::kHook && whole(duct))  // stumps slip off the foot
       duct.hook.reach(stylus.X_TI, duct.tube.rod, of_rods[d]);
     else
       duct.hook.let_go();
@@ -293,11 +293,13 @@ std::int32_t DuctSystem::surrounded(const StylusState& stylus, const Tool& tool)
 
 void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ) {
   const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
-  for (std::size_t d = 0; d < ducts_.size(); ++d)
-    between_[d] =
-        ducts_[d].hook.holds() ||
-        (jaws && (ducts_[d].grip.state() != GripState::kEmpty || ducts_[d].clasp.state() != GripState::kEmpty ||
-                  !arcs_between(ducts_[d].tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+  for (std::size_t d = 0; d < ducts_.size(); ++d) {
+    const Duct& duct = ducts_[d];
+    const bool stumps = duct.setup.slack && !whole(duct);  // they lie down before what comes
+    const bool held = duct.grip.state() != GripState::kEmpty || duct.clasp.state() != GripState::kEmpty;
+    between_[d] = stumps || duct.hook.holds() ||
+                  (jaws && (held || !arcs_between(duct.tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+  }
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);
   if (tool.kind == InstrumentKind::kClipApplier) use_applier(stylus, all, organ);
@@ -493,12 +495,12 @@ void DuctSystem::add_nodes(std::vector<NodePlace>& nodes_T) const {
   for (const Duct& duct : ducts_) duct.tube.add_nodes(nodes_T);
 }
 
-bool DuctSystem::any_whole() const {
-  return std::any_of(ducts_.begin(), ducts_.end(), [](const Duct& duct) {
-    return std::none_of(duct.openings.begin(), duct.openings.end(),
-                        [](const DuctMark& mark) { return mark.kind != DuctMark::Kind::kNick; });
-  });
+bool DuctSystem::whole(const Duct& duct) {
+  return std::all_of(duct.openings.begin(), duct.openings.end(),
+                     [](const DuctMark& mark) { return mark.kind == DuctMark::Kind::kNick; });
 }
+
+bool DuctSystem::any_whole() const { return std::any_of(ducts_.begin(), ducts_.end(), whole); }
 
 std::vector<DuctMark> DuctSystem::marks() const {
   std::vector<DuctMark> out;

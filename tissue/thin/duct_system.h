@@ -84,7 +84,7 @@ class DuctSystem {
   std::span<const std::int32_t> duct_of_triangle() const { return duct_of_triangle_; }
   bool grown() const { return grown_; }
   ContactMaterial material(std::size_t duct) const;
-  /// Those between the jaws or in the crook are no contact. @param triangle of contact()
+  /// Those between the jaws or in the crook and stumps of slack ones are no contact. @param triangle of contact()
   bool felt(std::int32_t triangle) const;
 
   GripState grip() const;
@@ -151,6 +151,7 @@ class DuctSystem {
   void take_events();
   void follow();
   std::int32_t contact_vertex(std::size_t duct, std::int32_t vertex) const;
+  static bool whole(const Duct& duct);
   bool tight(const Duct& duct, const LumenEnd& end) const;
 
   DuctSystemOptions options_;
@@ -162,7 +163,7 @@ class DuctSystem {
   TriangleSurface contact_;
   std::vector<std::int32_t> duct_of_triangle_;
   std::vector<Piece> pieces_;
-  std::vector<bool> between_;  ///< the jaws or in the crook, of each duct
+  std::vector<bool> between_;  ///< the jaws, in the crook, or a stump of what was slack: of each duct
   bool grown_ = false;
   std::int32_t touched_ = -1;
   GripBlock block_;

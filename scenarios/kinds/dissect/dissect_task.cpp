@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDissectToldFor = 3;  // s for which a mistake is shown
 constexpr double kTellEvery = 1;       // s of current from one event to the next
-constexpr double kAimOver = 0.0025;    // m over the least lift, to where a strand is asked to be lifted
+constexpr double kAimOver = 0.0035;    // m over the least lift, to where a strand is asked to be lifted
 
 }  // namespace
 

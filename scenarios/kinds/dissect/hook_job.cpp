@@ -20,9 +20,10 @@ constexpr double kHookLook = 0.05;                            // s of looking, b
 constexpr double kQuickestHook = 0.12;                        // s
 constexpr double kHookGood = 0.0040;                          // m off, before settle_share
 constexpr double kComesAlong = 0.2;  // share of the lift that is shown, from which it is seen to come along
-constexpr double kInVainFor = 6;     // s, before speed_factor, of current before the person begins anew
+constexpr double kInVainFor = 4;     // s, before speed_factor, of current before the person begins anew
 constexpr double kSinks = 0.003;     // m/s by which the tip is let down until so much is felt:
-constexpr double kLies = 0.25;       // N
+constexpr double kLies = 0.25;       // N, or so deep:
+constexpr double kDeepest = 0.0010;  // m of the tip's middle under the place
 
 }  // namespace
 
@@ -107,7 +108,8 @@ void HookJob::weigh(const Percept& percept, const HandIntent& intent, HandRandom
 
 void HookJob::burn(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent) {
   intent.pedal = true;
-  if (step_ == Step::kPress && senses.touch_n() < kLies)
+  const double depth = (percept.target_T - percept.tip_T).dot(percept.target_normal_T);
+  if (step_ == Step::kPress && senses.touch_n() < kLies && depth < kDeepest)
     intent.X_TI.p -= kSinks / skill_.speed_factor * dt_s * percept.target_normal_T;
   if (in_step_s_ < kInVainFor * skill_.speed_factor) return;
   rise(percept, kDrawnBack, intent);

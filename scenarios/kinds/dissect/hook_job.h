@@ -19,6 +19,7 @@ class HookJob : public HandWork {
   void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
   void update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
               HandRandom& random) override;
+  bool touches() const override { return step_ == Step::kPress; }
 
  private:
   enum class Step : std::uint8_t {
