@@ -49,7 +49,8 @@ struct TissueSetup {
   std::vector<SheetSetup> sheets = {};  ///< only with `soft`
   /// A needle that the driver brings in, its X_TN and the thread's way found then; only with `soft`. nullptr: none.
   std::shared_ptr<const SutureSetup> suture = nullptr;
-  /// Places on the organ at rest whose way the frame tells, at most kMaxFollowedPlaces; only with `soft`.
+  /// Places on the organ at rest, or on a sheet in a frame, whose way the frame tells, at most kMaxFollowedPlaces; only
+  /// with `soft`.
   std::vector<SurfacePlace> followed = {};
 };
 
@@ -120,6 +121,7 @@ class TissueWorld final : public World {
     std::array<std::int32_t, 3> corner;
     Barycentric weight;
     SurfacePlace rest;
+    std::optional<SheetPlace> on_sheet = {};  ///< in a frame, that bears it
   };
   std::vector<Followed> followed_;
   TissueFrame frame_;

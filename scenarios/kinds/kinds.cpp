@@ -4,6 +4,7 @@
 #include "scenarios/kinds/camera/camera_kind.h"
 #include "scenarios/kinds/clip/clip_kind.h"
 #include "scenarios/kinds/find/find_kind.h"
+#include "scenarios/kinds/gauze/gauze_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
@@ -16,9 +17,9 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(), grasp_kind(), camera_kind(),
-                                                  pegs_kind(),    wire_kind(),  find_kind(),  retract_kind(),
-                                                  palpate_kind(), clip_kind()};
+  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(),
+                                                  pegs_kind(),    wire_kind(),    gauze_kind(), find_kind(),
+                                                  retract_kind(), palpate_kind(), clip_kind()};
   return kinds;
 }
 

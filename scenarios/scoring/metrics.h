@@ -69,6 +69,7 @@ void add_pegs_metrics(const std::vector<Event>& events, const ScoringContext& co
                       MetricSink& sink);
 /// @param events of the graded window.
 void add_clip_metrics(const std::vector<Event>& events, MetricSink& sink);
+void add_gauze_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

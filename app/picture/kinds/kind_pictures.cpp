@@ -10,6 +10,7 @@ KindPicture touch_picture();
 KindPicture grasp_picture();
 KindPicture camera_picture();
 KindPicture wire_picture();
+KindPicture gauze_picture();
 KindPicture find_picture();
 KindPicture retract_picture();
 KindPicture palpate_picture();
@@ -17,9 +18,9 @@ KindPicture pegs_picture();
 KindPicture clip_picture();
 
 const KindPicture& picture_of(const Exercise& exercise) {
-  static const std::vector<KindPicture> pictures{reach_picture(),   touch_picture(), grasp_picture(), camera_picture(),
-                                                 pegs_picture(),    wire_picture(),  find_picture(),  retract_picture(),
-                                                 palpate_picture(), clip_picture()};
+  static const std::vector<KindPicture> pictures{
+      reach_picture(), touch_picture(), grasp_picture(),   camera_picture(),  pegs_picture(), wire_picture(),
+      gauze_picture(), find_picture(),  retract_picture(), palpate_picture(), clip_picture()};
   return *std::find_if(pictures.begin(), pictures.end(),
                        [&](const KindPicture& picture) { return picture.kind == exercise.kind; });
 }

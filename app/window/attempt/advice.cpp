@@ -53,6 +53,8 @@ std::string critical_advice(const Advised& a) {
     return a.words("Try next: count the clips before you take the scissors: two where it comes from, one beyond.");
   if (event == event_type::kWrongStructure)
     return a.words("Try next: follow each structure to where it comes from before you clip or cut it.");
+  if (event == event_type::kGauzeTorn)
+    return a.words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
   return a.words("Try next: the same again, slower.");
 }
 
@@ -152,6 +154,10 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "clips_correct_share")
     return words("Try next: before you close, look: straight across, tips beyond, clear of the clip beside it.");
   if (m == "clip_errors") return words("Try next: go in deeper until the tips show beyond, and only then close.");
+  if (m == "cut_area_share" || m == "cut_outside_share")
+    return words("Try next: before each snip stop over the line and see both tips on it; roll before you press.");
+  if (m == "hard_pulls")
+    return words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
@@ -238,6 +244,10 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "ring_angle_deg") return words("The ring stood {0} off square on average.", {row.value});
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
+  if (m == "cut_area_share") return words("Between cut and line lie {0} of what the line encloses.", {row.value});
+  if (m == "cut_outside_share") return words("{0} of the line's length was cut outside the band.", {row.value});
+  if (m == "hard_pulls")
+    return words(row.raw == 1 ? "Once pulled too hard." : "{0} times pulled too hard.", {row.value});
   if (m == "clip_errors") return words(row.raw == 1 ? "One mistake." : "{0} mistakes.", {row.value});
   if (m == "cut_off_middle_m") return words("Cut {0} off the middle on average.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);

@@ -10,6 +10,7 @@ KindLesson touch_lesson();
 KindLesson grasp_lesson();
 KindLesson camera_lesson();
 KindLesson wire_lesson();
+KindLesson gauze_lesson();
 KindLesson find_lesson();
 KindLesson retract_lesson();
 KindLesson palpate_lesson();
@@ -17,9 +18,9 @@ KindLesson clip_lesson();
 KindLesson pegs_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(), camera_lesson(),
-                                               pegs_lesson(),    wire_lesson(),  find_lesson(),  retract_lesson(),
-                                               palpate_lesson(), clip_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(),   grasp_lesson(), camera_lesson(),
+                                               pegs_lesson(),    wire_lesson(),    gauze_lesson(), find_lesson(),
+                                               retract_lesson(), palpate_lesson(), clip_lesson()};
   return lessons;
 }
 
