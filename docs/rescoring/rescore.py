@@ -316,6 +316,17 @@ def transfer_errors(attempt):
     return None if drops is None else drops + bumps / 2
 
 
+def gauze_metric(value):
+    """None until something was cut."""
+    def of(attempt):
+        return value(attempt) if attempt.count("SNIP") else None
+    return of
+
+
+def sum_of(attempt, name):
+    return sum(e["value"] for e in attempt.events if e["type"] == name)
+
+
 METRICS = {
     "time_s": lambda a: a.seconds,
     "wrong_places": lambda a: a.count("WRONG_PLACE"),
@@ -349,6 +360,9 @@ METRICS = {
     "clips_correct_share": clip_metric(clips_correct_share),
     "clip_errors": clip_metric(clip_errors),
     "cut_off_middle_m": lambda a: mean_value(a, "DIVIDED"),
+    "cut_area_share": gauze_metric(lambda a: sum_of(a, "SNIP")),
+    "cut_outside_share": gauze_metric(lambda a: min(1, sum_of(a, "OFF_LINE"))),
+    "hard_pulls": gauze_metric(lambda a: a.count("PULLED_HARD")),
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

@@ -12,25 +12,25 @@
 namespace trocar {
 namespace {
 
-constexpr double kEarth = 9.81;        // m/s2
-constexpr double kOpenBlades = 0.003;  // m from which on a sheet can come between them (a choice)
-constexpr double kCutReach = 0.9;      // of an edge: how far from the blades' line the cut runs
-constexpr double kResistBlock = 500;   // N/m of what blades cut, about its force
-constexpr double kBurnReach = 0.8;     // of an edge, round the hook's tip
-constexpr double kMayTouch = 0.002;    // m over the organ from which a node may come to lie on it within a step
-constexpr double kNoSheetDrag = 1e-6;  // N
-constexpr int kSearch = 12;            // vertices of the organ that a node may pass in a step
-constexpr double kTipsOver = 0.003;    // m beyond the tips, in which what they press on still is: their roundness
-constexpr int kBiteSteps = 10;         // for which a press counts on: closing tips wander on what they press
+constexpr double kEarth = 9.81;            // m/s2
+constexpr double kOpenBlades = 0.003;      // m from which on a sheet can come between them (a choice)
+constexpr double kCutReach = 0.9;          // of an edge: how far from the blades' line the cut runs
+constexpr double kResistBlock = 500;       // N/m of what blades cut, about its force
+constexpr double kBurnReach = 0.8;         // of an edge, round the hook's tip
+constexpr double kMayTouch = 0.002;        // m over the organ from which a node may come to lie on it within a step
+constexpr double kNoSheetDrag = 1e-6;      // N
+constexpr int kSearch = 12;                // vertices of the organ that a node may pass in a step
+constexpr double kTipsOver = 0.006;        // m beyond the tips, in which what they press on still is: their roundness
+constexpr int kBiteSteps = 10;             // for which a press counts on: closing tips wander on what they press
 constexpr double kSpreadTolerance = 2e-6;  // m, of a sheet in a frame: it is seen, and pressed by soft touches alone
-constexpr double kRimStrip = 0.004;    // m: so narrow a strip between a cut and the rim parts with it (a choice)
-constexpr std::size_t kCrumb = 20;     // triangles: so small a piece stays where it hangs
-constexpr double kRimStep = 0.00025;   // m
-constexpr double kRests = 0.0005;      // m/s of its fastest node, below which a sheet in a frame rests
-constexpr double kSpreadStill = 1e-6;  // m
-constexpr double kOnSheet = 0.0005;    // m between a place and the sheet that bears it
-constexpr double kFlattest = 0.25;     // of the area that a triangle must keep when its nodes are moved onto a cut
-constexpr double kNearer = 0.64;       // of the squared distance: by so much another vertex must be nearer
+constexpr double kRimStrip = 0.004;        // m: so narrow a strip between a cut and the rim parts with it (a choice)
+constexpr std::size_t kCrumb = 20;         // triangles: so small a piece stays where it hangs
+constexpr double kRimStep = 0.00025;       // m
+constexpr double kRests = 0.0005;          // m/s of its fastest node, below which a sheet in a frame rests
+constexpr double kSpreadStill = 1e-6;      // m
+constexpr double kOnSheet = 0.0005;        // m between a place and the sheet that bears it
+constexpr double kFlattest = 0.25;         // of the area that a triangle must keep when its nodes are moved onto a cut
+constexpr double kNearer = 0.64;           // of the squared distance: by so much another vertex must be nearer
 
 bool carries(const SolvedContact& contact) {
   return contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() && contact.normal_T.allFinite();

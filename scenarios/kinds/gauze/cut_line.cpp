@@ -10,8 +10,8 @@ namespace {
 constexpr double kFrays = 0.0006;    // m beyond a cut's ends, over which the threads part (a choice)
 constexpr double kNear = 0.4;        // of R: a cut further from the line than that does not come past it
 constexpr double kBarApart = 0.001;  // m
-constexpr int kLastBars = 1;            // the last of them, where a cut along the closed line meets the way in all the same
-constexpr double kBarHalf = 0.010;   // m: a way in further aside is none
+constexpr int kLastBars = 1;        // the last of them, where a cut along the closed line meets the way in all the same
+constexpr double kBarHalf = 0.010;  // m: a way in further aside is none
 constexpr double kCorridor = 0.006;  // m beside the way in, in which a cut along it is part of it
 constexpr double kAlongWay = 0.6;    // cosine between such a cut and the way
 constexpr int kPieces = 10;          // of a cut, that are told apart

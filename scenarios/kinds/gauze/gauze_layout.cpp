@@ -11,7 +11,8 @@
 namespace trocar {
 namespace {
 
-constexpr std::size_t kMostSteps = 32;                  // DirectorStatus::done
+constexpr std::size_t kMostSteps = 32;  // DirectorStatus::done
+constexpr double kDrawnIn = 0.003;      // m: the free edge draws in so far as the gauze is spread; no line begins there
 constexpr double kMostRoll = 2 * std::numbers::pi / 3;  // rad either way, well within what a stylus rolls
 
 Mat3 unrolled_at(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& place_T) {
@@ -59,7 +60,7 @@ Board lay_out_gauze(const Exercise& exercise, const ExerciseLevel& level, int bo
   const double edge_y = frame.at({length / 2, plan.across_m}).y();
   const CutLine round(line, asked.off_m);
   const double met = round.at(0).at.norm();
-  line.way_in_m = (own.middle_T.y() - edge_y) / -std::sin(line.from_rad) - met;
+  line.way_in_m = (own.middle_T.y() - edge_y) / -std::sin(line.from_rad) - met - kDrawnIn;
   const CutLine whole(line, asked.off_m);
   Board out;
   out.centre_T = own.middle_T;

@@ -9,8 +9,8 @@
 
 namespace trocar {
 
-/// Places along the line, one a step: from the edge in, then all round; steps of a long line are longer. The board's own
-/// is a GauzeBoard.
+/// Places along the line, one a step: from the edge in, then all round; steps of a long line are longer. The board's
+/// own is a GauzeBoard.
 Board lay_out_gauze(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place);
 
 /// The instrument over a place of the line: its shaft through the port, if there is one, its blades along the line.

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kPullEnds = 0.8, kPullRearm = 0.1;  // of the limit; s
 constexpr double kCutAhead = 0.45;  // of a step, from what is cut to the middle of the next snip: they overlap a little
-constexpr double kFirstAhead = 0.8;  // the same from the edge, which gives way more: the rim parts with the cut
-constexpr double kWithin = 0.010;    // m that gauze is moved at most by who cuts it; what moves further has come off
-constexpr double kMeets = 0.4;       // of a step: the last snip of the way in just meets the closed line
-constexpr double kGoodShare = 0.5;  // of the band about the line, that is aimed for
-constexpr double kAheadGoal = 1.0;  // of a step, from there to where the line goes
-constexpr double kBlamedFor = 2.5;  // s for which a mistake is shown
+constexpr double kFirstAhead = 0.5;     // the same from the edge, which gives way more: the rim parts with the cut
+constexpr double kWithin = 0.010;       // m that gauze is moved at most by who cuts it; what moves further has come off
+constexpr double kMeets = 0.4;          // of a step: the last snip of the way in just meets the closed line
+constexpr double kGoodShare = 0.5;      // of the band about the line, that is aimed for
+constexpr double kAheadGoal = 1.0;      // of a step, from there to where the line goes
+constexpr double kBlamedFor = 2.5;      // s for which a mistake is shown
 constexpr double kLeastOutside = 1e-4;  // of the line, that is told
 
 }  // namespace
@@ -109,7 +109,8 @@ Vec3 GauzeTask::now_T(const TissueFrame* frame, double arc_m) const {
     const Vec3 way = frame->place[n].point_T - targets_[n].centre_T;
     return way.norm() < kWithin ? way : Vec3(Vec3::Zero());
   };
-  const double share = step - static_cast<double>(before);
+  // What is cut already gapes, and says nothing of what lies ahead.
+  const double share = done_[before] ? 1 : step - static_cast<double>(before);
   return drawn + (1 - share) * moved(before) + share * moved(behind);
 }
 

@@ -13,15 +13,15 @@ constexpr double kBladeSpeed = 0.045;                 // m/s of free opening and
 constexpr double kBladesShut = -0.006;                // m of intent: the fingers press beyond
 constexpr double kBladesShutFor = 0.10;               // s
 constexpr double kSnipLate = 0.16, kSnipLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
-constexpr double kGoodEnough = 0.5;                  // of what is near enough: so near the place is followed
-constexpr double kAsideGain = 3;                     // 1/s
-constexpr double kLookFor = 0.4;                     // s a correction that the person would make, before speed_factor
-constexpr double kOutSpeed = 0.040;                  // m/s, before speed_factor
-constexpr double kOutOver = 0.001;                   // m over the gauze, where tips are out of the cut
-constexpr double kLightest = 0.2;                    // of the force that is meant
+constexpr double kGoodEnough = 0.5;                   // of what is near enough: so near the place is followed
+constexpr double kAsideGain = 3;                      // 1/s
+constexpr double kLookFor = 0.4;                      // s a correction that the person would make, before speed_factor
+constexpr double kOutSpeed = 0.080;                   // m/s, before speed_factor
+constexpr double kOutOver = 0.001;                    // m over the gauze, where tips are out of the cut
+constexpr double kLightest = 0.2;                     // of the force that is meant
 constexpr double kQuickestSnipReach = 0.12;           // s
 constexpr double kDeepest = 0.040;                    // m on from the hover, felt or not: then it closes all the same
-constexpr double kSlowNear = 0.5;                     // of the approach speed, once something is felt
+constexpr double kSlowNear = 0.7;                     // of the approach speed, once something is felt
 constexpr double kFelt = 0.12;                        // N
 constexpr double kSnipTurn = 30 * std::numbers::pi / 180, kSnipTurnFloor = 0.15;  // of the aim error of turns
 
