@@ -50,7 +50,6 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
       adjacent_T_.triangles.push_back({a - own, b - own, c - own});
       adjacent_material_.push_back(setup.triangle_material.empty() ? 0 : setup.triangle_material[t]);
     }
-    follow(setup.followed);
     if (!setup.ducts.empty()) {
       ducts_.emplace(setup.ducts, *soft_, options.tool_radius_m);
       last_topology_ = soft_->topology();
@@ -61,6 +60,7 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
       last_topology_ = soft_->topology();
       thin_.insert(thin_.end(), sheets_->seen().begin(), sheets_->seen().end());
     }
+    follow(setup.followed);
     suture_ = setup.suture;
     actions_.emplace(*soft_);
     hang_vessels();
@@ -370,6 +370,11 @@ void TissueWorld::add_sheets(ContactPatch& patch) {
     frame_.grip = sheets_->grip();
     frame_.slipped_m = sheets_->slipped_m();
   }
+  frame_.sheet_pull_n = sheets_->pull_n();
+  const auto cuts = sheets_->seen_cuts();
+  for (auto n = static_cast<std::size_t>(frame_.sheet_cut_count); n < cuts.size(); ++n)
+    frame_.sheet_cut[n % kMaxSheetCutsSeen] = cuts[n];
+  frame_.sheet_cut_count = static_cast<std::int32_t>(cuts.size());
   frame_.surgery.cuts += sheets_->cuts();
   frame_.surgery.tears += sheets_->tears();
 }
@@ -473,6 +478,7 @@ void TissueWorld::follow(std::span<const SurfacePlace> places_T) {
       nearest.corner = corner;
       nearest.weight = barycentric_of(foot, at);
     }
+    if (sheets_) nearest.on_sheet = sheets_->place_on(place.point_T);
     followed_.push_back(nearest);
   }
   tell_followed();
@@ -482,6 +488,10 @@ void TissueWorld::tell_followed() {
   frame_.place_count = static_cast<std::int32_t>(followed_.size());
   for (std::size_t i = 0; i < followed_.size(); ++i) {
     const Followed& f = followed_[i];
+    if (f.on_sheet) {
+      frame_.place[i] = sheets_->now(*f.on_sheet);
+      continue;
+    }
     // A surface's normal goes with the inverse transpose of how the tissue is stretched.
     const Mat3 F = soft_->gradient_within(f.rest.point_T);
     frame_.place[i] = {interpolate(f.weight, vertices_at(f.corner, *soft_->surface())),

@@ -51,7 +51,8 @@ struct TissueSetup {
   /// A needle that the driver brings in, its X_TN and the thread's way found then; only with `soft`. nullptr: none.
   std::shared_ptr<const SutureSetup> suture = nullptr;
   std::vector<BleederSetup> bleeders = {};  ///< at most kMaxWoundsSeen; only with `ducts`
-  /// Places on the organ at rest whose way the frame tells, at most kMaxFollowedPlaces; only with `soft`.
+  /// Places on the organ at rest, or on a sheet in a frame, whose way the frame tells, at most kMaxFollowedPlaces; only
+  /// with `soft`.
   std::vector<SurfacePlace> followed = {};
 };
 
@@ -130,6 +131,7 @@ class TissueWorld final : public World {
     std::array<std::int32_t, 3> corner;
     Barycentric weight;
     SurfacePlace rest;
+    std::optional<SheetPlace> on_sheet = {};  ///< in a frame, that bears it
   };
   std::vector<Followed> followed_;
   TissueFrame frame_;

@@ -285,7 +285,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   const Timing timing = scene.setup.realtime ? Timing::kLive : Timing::kLockstep;
   if (scene.setup.tissue == kStillTissue &&
       (judges_pull(scene.setup.exercise) || !scene.board.nodules.empty() || !scene.board.ducts_T.empty() ||
-       needle_stand(scene.setup.exercise, scene.board)))
+       needle_stand(scene.setup.exercise, scene.board) ||
+       std::any_of(scene.setup.exercise.sheets.begin(), scene.setup.exercise.sheets.end(),
+                   [](const SheetPlan& sheet) { return sheet.organ.empty(); })))
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about tissue that must give way: '" + kStillTissue +
                      "' does not, choose another");
   if (judges_pull(scene.setup.exercise) && !scene.setup.exercise.sheets.empty() && scene.sheets.empty())

@@ -366,6 +366,15 @@ def needle_redos(attempt):
         return None
     again = sum(e["type"] == "NEEDLE_GRIPPED" and e["severity"] != "info" for e in attempt.events)
     return again + attempt.count("BITE_UNDONE", "NEEDLE_LOST")
+def gauze_metric(value):
+    """None until something was cut."""
+    def of(attempt):
+        return value(attempt) if attempt.count("SNIP") else None
+    return of
+
+
+def sum_of(attempt, name):
+    return sum(e["value"] for e in attempt.events if e["type"] == name)
 
 
 METRICS = {
@@ -410,6 +419,9 @@ METRICS = {
         lambda a: sum(e["type"] == "STRAND_DIVIDED" and e["severity"] == "info" for e in a.events) / 5),
     "spurted_ml": spurted_ml,
     "strand_current_s": of_strands(strand_current),
+    "cut_area_share": gauze_metric(lambda a: sum_of(a, "SNIP")),
+    "cut_outside_share": gauze_metric(lambda a: min(1, sum_of(a, "OFF_LINE"))),
+    "hard_pulls": gauze_metric(lambda a: a.count("PULLED_HARD")),
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

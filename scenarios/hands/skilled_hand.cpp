@@ -8,6 +8,7 @@
 #include "scenarios/kinds/clip/clip_job.h"
 #include "scenarios/kinds/dissect/hook_job.h"
 #include "scenarios/kinds/find/find_job.h"
+#include "scenarios/kinds/gauze/snip_job.h"
 #include "scenarios/kinds/grasp/grasp_job.h"
 #include "scenarios/kinds/needle/needle_job.h"
 #include "scenarios/kinds/palpate/palpate_job.h"
@@ -61,6 +62,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
   bring(HandJob::Kind::kClips, std::make_unique<ClipJob>(skill_));
   bring(HandJob::Kind::kSewing, std::make_unique<NeedleJob>(skill_));
   bring(HandJob::Kind::kHooking, std::make_unique<HookJob>(skill_));
+  bring(HandJob::Kind::kSnips, std::make_unique<SnipJob>(skill_));
   bring(HandJob::Kind::kAnswer, std::make_unique<FindJob>(skill_));
   bring(HandJob::Kind::kSearch, std::make_unique<PalpateJob>(skill_));
   for (int axis = 0; axis < 3; ++axis) tremor_phase_[axis] = 2 * std::numbers::pi * random_.uniform();

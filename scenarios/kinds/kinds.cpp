@@ -5,6 +5,7 @@
 #include "scenarios/kinds/clip/clip_kind.h"
 #include "scenarios/kinds/dissect/dissect_kind.h"
 #include "scenarios/kinds/find/find_kind.h"
+#include "scenarios/kinds/gauze/gauze_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/needle/needle_kind.h"
@@ -18,9 +19,9 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(), grasp_kind(),  camera_kind(),
-                                                  pegs_kind(),    wire_kind(),  find_kind(),   retract_kind(),
-                                                  palpate_kind(), clip_kind(),  needle_kind(), dissect_kind()};
+  static const std::vector<KindDescription> kinds{
+      reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(), pegs_kind(),   wire_kind(),   find_kind(),
+      retract_kind(), palpate_kind(), clip_kind(),  gauze_kind(),  needle_kind(), dissect_kind()};
   return kinds;
 }
 

@@ -211,13 +211,26 @@ constexpr MetricDefinition kCatalogue[] = {
     {"strand_current_s", "s", "time of the pedal while a strand was lit, mean over the strands that current parted",
      "pedal from START to SPURTS / strands divided", kLess},
     {"sealed_late", "1", "vessels that bled for longer than they should", "count of SEALED_LATE", kLess, kErrors},
+    {"cut_area_share", "1", "area between cut and line, of what the line encloses; of several cuts the one further off",
+     "sum of SNIP", kLess, kErrors},
+    {"cut_outside_share", "1", "length cut outside the band about the line, of the line's, 1 at most",
+     "min(1, sum of OFF_LINE)", kLess, kErrors},
+    {"hard_pulls", "1", "times that the gauze was pulled or pressed too hard", "count of PULLED_HARD", kLess, kErrors},
+    {"snips", "1", "closings of the scissors that cut gauze", "count of SNIP", kNeither},
 };
 
 // Of force though their unit does not say so; all others of force are in newtons.
-constexpr std::string_view kForceShares[] = {
-    "soft_force_share", "in_band_share",     "object_in_band_share",     "grip_in_band_share",
-    "excess_events",    "grip_window_share", "object_grip_window_share", "crushed",
-    "hard_force_share", "grip_marks"};
+constexpr std::string_view kForceShares[] = {"soft_force_share",
+                                             "in_band_share",
+                                             "object_in_band_share",
+                                             "grip_in_band_share",
+                                             "excess_events",
+                                             "grip_window_share",
+                                             "object_grip_window_share",
+                                             "crushed",
+                                             "hard_force_share",
+                                             "grip_marks",
+                                             "hard_pulls"};
 
 }  // namespace
 
@@ -309,6 +322,7 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
   add_clip_metrics(graded_events, metrics);
   add_needle_metrics(graded_events, metrics);
   add_dissect_metrics(graded, graded_events, metrics);
+  add_gauze_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
   return metrics;
 }

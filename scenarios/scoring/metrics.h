@@ -73,6 +73,7 @@ void add_clip_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_needle_metrics(const std::vector<Event>& events, MetricSink& sink);
 /// @param trace and @param events of the graded window.
 void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, MetricSink& sink);
+void add_gauze_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 
 }  // namespace trocar

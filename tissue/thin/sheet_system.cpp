@@ -2,22 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include "haptics/contact/segment_triangle.h"
 #include "haptics/input_error.h"
 #include "tissue/thin/rod_on_solid.h"
 
 namespace trocar {
 namespace {
 
-constexpr double kEarth = 9.81;        // m/s2
-constexpr double kOpenBlades = 0.003;  // m from which on a sheet can come between them (a choice)
-constexpr double kCutReach = 0.9;      // of an edge: how far from the blades' line the cut runs
-constexpr double kResistBlock = 500;   // N/m of what blades cut, about its force
-constexpr double kBurnReach = 0.8;     // of an edge, round the hook's tip
-constexpr double kMayTouch = 0.002;    // m over the organ from which a node may come to lie on it within a step
-constexpr double kNoSheetDrag = 1e-6;  // N
-constexpr int kSearch = 12;            // vertices of the organ that a node may pass in a step
-constexpr double kNearer = 0.64;       // of the squared distance: by so much another vertex must be nearer
+constexpr double kEarth = 9.81;            // m/s2
+constexpr double kOpenBlades = 0.003;      // m from which on a sheet can come between them (a choice)
+constexpr double kCutReach = 0.9;          // of an edge: how far from the blades' line the cut runs
+constexpr double kResistBlock = 500;       // N/m of what blades cut, about its force
+constexpr double kBurnReach = 0.8;         // of an edge, round the hook's tip
+constexpr double kMayTouch = 0.002;        // m over the organ from which a node may come to lie on it within a step
+constexpr double kNoSheetDrag = 1e-6;      // N
+constexpr int kSearch = 12;                // vertices of the organ that a node may pass in a step
+constexpr double kTipsOver = 0.006;        // m beyond the tips, in which what they press on still is: their roundness
+constexpr int kBiteSteps = 10;             // for which a press counts on: closing tips wander on what they press
+constexpr double kSpreadTolerance = 2e-6;  // m, of a sheet in a frame: it is seen, and pressed by soft touches alone
+constexpr double kRimStrip = 0.004;        // m: so narrow a strip between a cut and the rim parts with it (a choice)
+constexpr std::size_t kCrumb = 20;         // triangles: so small a piece stays where it hangs
+constexpr double kRimStep = 0.00025;       // m
+constexpr double kRests = 0.0005;          // m/s of its fastest node, below which a sheet in a frame rests
+constexpr double kSpreadStill = 1e-6;      // m
+constexpr double kOnSheet = 0.0005;        // m between a place and the sheet that bears it
+constexpr double kFlattest = 0.25;         // of the area that a triangle must keep when its nodes are moved onto a cut
+constexpr double kNearer = 0.64;           // of the squared distance: by so much another vertex must be nearer
 
 bool carries(const SolvedContact& contact) {
   return contact.share > 0 && contact.force_T.allFinite() && contact.tool_T.allFinite() && contact.normal_T.allFinite();
@@ -27,7 +40,18 @@ SheetOptions options_of(const SheetSetup& setup, double step_s) {
   SheetOptions options = sheet_options(setup.material, setup.thickness_m);
   options.gravity_m_s2 = {0, 0, -kEarth};
   options.step_s = step_s;
+  if (setup.framed) options.tolerance_m = kSpreadTolerance;
   return options;
+}
+
+/// What was drawn; of a sheet that is spread in a frame, as it was before.
+TriangleSurface at_rest(const SheetSetup& setup, double frame_strain) {
+  TriangleSurface rest = setup.drawn_T;
+  if (!setup.framed || rest.vertices.empty()) return rest;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& vertex : rest.vertices) middle += vertex / static_cast<double>(rest.vertices.size());
+  for (Vec3& vertex : rest.vertices) vertex = middle + (vertex - middle) / (1 + frame_strain);
+  return rest;
 }
 
 std::int32_t nearest_of(std::span<const Vec3> vertices, const Vec3& place) {
@@ -48,17 +72,19 @@ SheetSystem::SheetSystem(std::span<const SheetSetup> sheets, const SoftOrgan& or
   know(organ);
   for (const SheetSetup& setup : sheets) {
     try {
-      ElasticSheet sheet(setup.drawn_T, options_of(setup, organ.solid().options().step_s));
+      ElasticSheet sheet(at_rest(setup, options_.frame_strain), options_of(setup, organ.solid().options().step_s));
       sheets_.push_back({setup, std::move(sheet), SheetSurface(setup), SheetGrip(options_.grip)});
     } catch (const InputError& error) {
       throw InputError("sheet '" + setup.name + "': " + error.what());
     }
     Sheet& of = sheets_.back();
     of.edge_m = std::sqrt(of.sheet.mean_area_m2() * 4 / std::sqrt(3.0));
+    if (setup.framed) spread(of);
     for (const Vec3& place : of.sheet.position()) of.beneath.push_back(nearest_of(organ.rest()->vertices, place));
     for (const std::int32_t node : setup.hinge) {
       if (node < 0 || static_cast<std::size_t>(node) >= of.beneath.size())
         throw InputError("sheet '" + setup.name + "': a place of its hinge is none");
+      if (setup.framed) continue;
       const std::int32_t vertex = of.beneath[static_cast<std::size_t>(node)];
       of.hinge.push_back(
           {node, vertex, of.sheet.position()[static_cast<std::size_t>(node)] - vertex_of(*organ.rest(), vertex)});
@@ -110,6 +136,7 @@ bool SheetSystem::jaws_taken(const StylusState& stylus, const Tool& tool, bool p
   if (!grasps && tool.kind != InstrumentKind::kScissors) return false;
   if (!grasps && open_) return true;
   return std::any_of(sheets_.begin(), sheets_.end(), [&](const Sheet& of) {
+    if (of.setup.framed && !grasps) return false;
     return of.grip.state() != GripState::kEmpty ||
            !triangles_between(of.sheet, stylus.X_TI, grasps ? options_.grip.pad_length_m : options_.scissors.blade_m,
                               grasps ? options_.grip.pad_width_m : options_.scissors.width_m, stylus.jaw_opening_m, 0)
@@ -193,6 +220,7 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
   changed_.clear();
   block_ = {};
   hold_ = {};
+  pull_n_ = 0;
   if (organ.topology() != organ_topology_) know(organ);
   const bool sound =
       present && stylus.X_TI.p.allFinite() && stylus.X_TI.R.allFinite() && std::isfinite(stylus.jaw_opening_m);
@@ -206,6 +234,8 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
     burns_ = false;
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     Sheet& of = sheets_[s];
+    feel_tips(s, contacts);
+    if (of.setup.framed) use_tips(s, stylus, sound && tool.kind == InstrumentKind::kScissors);
     for (const Hinge& hinge : of.hinge) {
       const RodAnchor at = anchor_on(organ.solid(), shares_at(organ, hinge.vertex), options_.hinge_n_per_m);
       of.sheet.anchor({hinge.node, at.position + hinge.offset_T, at.velocity, at.stiffness_n_per_m});
@@ -217,8 +247,12 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
       of.grip.let_go();
     const std::size_t of_jaws = of_sheet.size();
     if (present) touch(s, contacts, of_sheet);
-    lie(of, organ, of_sheet);
+    if (!of.setup.framed) lie(of, organ, of_sheet);
+    of.still = of.still && of.setup.framed && of_sheet.empty() && changed_.empty();
+    if (of.still) continue;
     of.sheet.step(of_sheet);
+    of.still = of_sheet.empty() && std::all_of(of.sheet.velocity().begin(), of.sheet.velocity().end(),
+                                               [](const Vec3& velocity) { return velocity.norm() < kRests; });
     if (of.grip.state() != GripState::kEmpty) {
       of.grip.feel(stylus.X_TI, std::span(of_sheet).first(of_jaws), of.sheet);
       if (block_.stiffness_n_per_m < of.grip.block().stiffness_n_per_m) block_ = of.grip.block();
@@ -228,6 +262,7 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
       changed_.push_back({static_cast<std::int32_t>(s), {of.sheet.torn().begin(), of.sheet.torn().end()}});
       ++tears_;
     }
+    if (of.setup.framed) continue;
     // The organ's part: what a hinge pulls, what lies on it presses, with the stiffness of either.
     const std::vector<Mat3> stiffness = of.sheet.anchor_stiffness();
     for (std::size_t a = 0; a < stiffness.size(); ++a) {
@@ -251,7 +286,8 @@ void SheetSystem::step(const HapticState& newest, const SheetContacts& contacts,
   std::int32_t first = 0;
   for (const Sheet& of : sheets_) {
     const auto count = static_cast<std::int32_t>(of.sheet.triangles().size());
-    const bool taken = of.grip.state() != GripState::kEmpty || open_, cuts = tool.kind == InstrumentKind::kScissors;
+    const bool taken = of.grip.state() != GripState::kEmpty || (open_ && !of.setup.framed),
+               cuts = tool.kind == InstrumentKind::kScissors;
     std::vector<bool> between(static_cast<std::size_t>(count), false);
     if (sound)
       for (const std::int32_t t :
@@ -270,15 +306,17 @@ void SheetSystem::use_scissors(const StylusState& stylus) {
   const Pose& X_TI = stylus.X_TI;
   bool between = false;
   for (const Sheet& of : sheets_)
-    between = between || !triangles_between(of.sheet, X_TI, o.blade_m, o.width_m,
-                                            std::max(stylus.jaw_opening_m, of.setup.thickness_m), of.edge_m / 2)
-                              .empty();
+    between = between || (!of.setup.framed &&
+                          !triangles_between(of.sheet, X_TI, o.blade_m, o.width_m,
+                                             std::max(stylus.jaw_opening_m, of.setup.thickness_m), of.edge_m / 2)
+                               .empty());
   if (!between) open_ = false;
   if (between && stylus.jaw_opening_m > kOpenBlades) open_ = true;
   if (!open_) return;
   double resist = 0;
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     const Sheet& of = sheets_[s];
+    if (of.setup.framed) continue;
     // The energy of the whole cut over the way of the blades.
     resist += of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * o.blade_m / (2 * kOpenBlades);
     if (stylus.jaw_opening_m >= o.shut_opening_m) continue;
@@ -288,6 +326,176 @@ void SheetSystem::use_scissors(const StylusState& stylus) {
     block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
   else
     open_ = false;
+}
+
+/// Clips hold its rim where it was drawn.
+void SheetSystem::spread(Sheet& of) const {
+  of.sheet.place(of.setup.drawn_T.vertices);
+  for (const std::int32_t node : of.setup.hinge)
+    if (node >= 0 && static_cast<std::size_t>(node) < of.setup.drawn_T.vertices.size())
+      of.sheet.anchor(
+          {node, of.setup.drawn_T.vertices[static_cast<std::size_t>(node)], Vec3::Zero(), options_.clip_n_per_m});
+  of.sheet.settle({}, kSpreadStill);
+  of.drawn_T.assign(of.sheet.position().begin(), of.sheet.position().end());
+}
+
+void SheetSystem::feel_tips(std::size_t sheet, const SheetContacts& given) {
+  Sheet& of = sheets_[sheet];
+  of.pressed_n = 0;
+  if (given.first_triangle < 0) return;
+  std::int32_t first = given.first_triangle;
+  for (std::size_t s = 0; s < sheet; ++s) first += static_cast<std::int32_t>(sheets_[s].sheet.triangles().size());
+  Vec3 pull = Vec3::Zero();
+  for (std::int32_t i = 0; i < given.contacts.count; ++i) {
+    const SolvedContact& contact = given.contacts.at[static_cast<std::size_t>(i)];
+    const std::int32_t triangle = contact.place.triangle - first;
+    if (triangle < 0 || triangle >= static_cast<std::int32_t>(of.sheet.triangles().size()) || !carries(contact))
+      continue;
+    pull += contact.force_T;
+    of.pressed_n += std::max(0.0, contact.force_T.dot(contact.normal_T));
+  }
+  pull_n_ = std::max(pull_n_, pull.norm());
+}
+
+void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool scissors) {
+  Sheet& of = sheets_[sheet];
+  const ScissorsOptions& o = options_.scissors;
+  of.bite_steps = of.pressed_n >= options_.bite_n ? 0 : of.bite_steps + 1;
+  if (!scissors || of.bite_steps > kBiteSteps) {
+    of.opened_m = 0;
+    return;
+  }
+  if (stylus.jaw_opening_m >= o.shut_opening_m) {
+    of.opened_m = std::max(of.opened_m, stylus.jaw_opening_m);
+    const double resist = of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * options_.snip_m / kOpenBlades;
+    if (stylus.jaw_opening_m < kOpenBlades) block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
+    return;
+  }
+  const double opened = std::exchange(of.opened_m, 0.0);
+  if (opened < kOpenBlades) return;
+  const auto cut = cut_between(sheet, stylus.X_TI, std::min(options_.snip_m, opened) / 2);
+  if (cut) part_along(sheet, *cut);
+}
+
+/// Where the blades' plane crosses the sheet between their tips, from end to end.
+std::optional<SheetCutSeen> SheetSystem::cut_between(std::size_t sheet, const Pose& X_TI, double half_m) const {
+  const Sheet& of = sheets_[sheet];
+  const Pose X_IT = X_TI.inverse();
+  double least = half_m, most = -half_m;
+  SheetCutSeen cut{static_cast<std::int32_t>(sheet)};
+  for (const auto& corner : of.sheet.triangles()) {
+    std::array<Vec3, 3> at_I, drawn;
+    for (std::size_t i = 0; i < 3; ++i) {
+      at_I[i] = X_IT * of.sheet.position()[static_cast<std::size_t>(corner[i])];
+      drawn[i] = of.drawn_T[static_cast<std::size_t>(corner[i])];
+    }
+    std::array<Vec3, 2> on_I, on_drawn;
+    std::size_t ends = 0;
+    for (std::size_t i = 0; i < 3 && ends < 2; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const double from = at_I[i].x(), to = at_I[j].x();
+      if ((from < 0) == (to < 0)) continue;
+      const double share = from / (from - to);
+      on_I[ends] = at_I[i] + share * (at_I[j] - at_I[i]);
+      on_drawn[ends++] = drawn[i] + share * (drawn[j] - drawn[i]);
+    }
+    if (ends < 2) continue;
+    const auto middle_z = (on_I[0].z() + on_I[1].z()) / 2;
+    if (middle_z > kTipsOver || middle_z < -options_.scissors.blade_m) continue;
+    const Vec3 way = on_I[1] - on_I[0];
+    for (const std::size_t end : {0, 1}) {
+      const double y = std::clamp(on_I[end].y(), -half_m, half_m);
+      const double share = std::abs(way.y()) > 0 ? (y - on_I[0].y()) / way.y() : 0;
+      if (share < 0 || share > 1) continue;
+      const Vec3 place = on_drawn[0] + share * (on_drawn[1] - on_drawn[0]);
+      if (y <= least) least = y, cut.from_rest_T = place;
+      if (y >= most) most = y, cut.to_rest_T = place;
+    }
+  }
+  if (most <= least) return std::nullopt;
+  const Vec3 way = (cut.to_rest_T - cut.from_rest_T).normalized();
+  cut.from_rest_T = through_rim(cut.from_rest_T, -way);
+  cut.to_rest_T = through_rim(cut.to_rest_T, way);
+  return cut;
+}
+
+/// Would a piece fall out that is a crumb, now that these edges are cut?
+bool SheetSystem::leaves_crumb(const Sheet& of) {
+  std::vector<std::array<std::int32_t, 3>> triangles(of.sheet.triangles().begin(), of.sheet.triangles().end());
+  part_triangles(triangles, static_cast<std::int32_t>(of.sheet.position().size()), of.cut_edges);
+  std::map<SheetEdge, std::vector<std::size_t>> beside;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+      beside[{a, b}].push_back(t);
+    }
+  std::vector<bool> seen(triangles.size(), false);
+  for (std::size_t first = 0; first < triangles.size(); ++first) {
+    if (seen[first]) continue;
+    std::size_t count = 0;
+    seen[first] = true;
+    for (std::vector<std::size_t> reached{first}; !reached.empty(); ++count) {
+      const std::size_t t = reached.back();
+      reached.pop_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+        for (const std::size_t other : beside[{a, b}]) {
+          if (seen[other]) continue;
+          seen[other] = true;
+          reached.push_back(other);
+        }
+      }
+    }
+    if (count < kCrumb) return true;
+  }
+  return false;
+}
+
+/// The rim in that direction if it is near, else the same place.
+Vec3 SheetSystem::through_rim(const Vec3& drawn_T, const Vec3& way) const {
+  if (place_on(drawn_T + kRimStrip * way)) return drawn_T;
+  Vec3 last = drawn_T;
+  for (double on = kRimStep; on < kRimStrip && place_on(drawn_T + on * way); on += kRimStep) last = drawn_T + on * way;
+  return last;
+}
+
+void SheetSystem::part_along(std::size_t sheet, const SheetCutSeen& cut) {
+  Sheet& of = sheets_[sheet];
+  seen_cuts_.push_back(cut);
+  ++cuts_;
+  const auto from = place_on(cut.from_rest_T), to = place_on(cut.to_rest_T);
+  if (!from || !to) return;
+  const SheetCut line{of.sheet.place_T(from->on), of.sheet.place_T(to->on), kCutReach * of.edge_m};
+  for (const SheetEdge& edge : of.sheet.chain(line)) {
+    of.cut_edges.push_back(edge);
+    if (leaves_crumb(of)) of.cut_edges.pop_back();
+  }
+  if (of.sheet.part(of.cut_edges) <= 0) return;
+  changed_.push_back({static_cast<std::int32_t>(sheet), of.cut_edges});
+}
+
+std::optional<SheetPlace> SheetSystem::place_on(const Vec3& drawn_T) const {
+  std::optional<SheetPlace> nearest;
+  double least = kOnSheet;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    const Sheet& of = sheets_[s];
+    if (!of.setup.framed) continue;
+    for (std::size_t t = 0; t < of.sheet.triangles().size(); ++t) {
+      std::array<Vec3, 3> at;
+      for (std::size_t i = 0; i < 3; ++i) at[i] = of.drawn_T[static_cast<std::size_t>(of.sheet.triangles()[t][i])];
+      const Vec3 foot = closest_point_on_triangle(drawn_T, at);
+      if (const double off = (foot - drawn_T).norm(); off < least)
+        least = off, nearest = SheetPlace{s, {static_cast<std::int32_t>(t), barycentric_of(foot, at)}};
+    }
+  }
+  return nearest;
+}
+
+SurfacePlace SheetSystem::now(const SheetPlace& place) const {
+  const ElasticSheet& of = sheets_[place.sheet].sheet;
+  const auto& [a, b, c] = of.triangles()[static_cast<std::size_t>(place.on.triangle)];
+  const auto at = [&](std::int32_t node) { return of.position()[static_cast<std::size_t>(node)]; };
+  return {of.place_T(place.on), (at(b) - at(a)).cross(at(c) - at(a)).normalized()};
 }
 
 /// A live hook on a sheet cuts along its way.
@@ -324,8 +532,10 @@ void SheetSystem::follow() {
     const auto copied = of.sheet.copied().subspan(known - drawn);
     if (copied.empty()) continue;
     grown_ = true;
-    for (const std::int32_t node : copied)
+    for (const std::int32_t node : copied) {
       of.beneath.push_back(std::int32_t(of.beneath[static_cast<std::size_t>(node)]));
+      if (of.setup.framed) of.drawn_T.push_back(Vec3(of.drawn_T[static_cast<std::size_t>(node)]));
+    }
     of.seen.part(of.sheet.triangles(), copied);
   }
   contact_.vertices.clear();

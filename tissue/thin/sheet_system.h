@@ -6,9 +6,15 @@
 // the jaws is no contact. Contacts of the loop push the sheet by the stiffness of its material in the patch: at the
 // place of the solve the loop's force is the solved one. Triangles keep their numbers through cuts, sheets stand one
 // behind the other. T, SI. Thread: tissue task. Same input, same bytes.
+//
+// A sheet in a frame is stretched by clips along its rim and has no organ beneath. Blades cut it with their tips alone:
+// where they press on it and close, along the plane in which they move, as far as they stood open and no further than a
+// snip. What was cut is told to the place (seen_cuts()); the mesh comes apart along the edges that are nearest, whose
+// nodes are moved onto the cut where its triangles allow it.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +36,10 @@ struct SheetSystemOptions {
   double lying_reach_m = 0.006;  ///< so deep in the organ it is still brought out
   double least_force_n = 1e-3;   ///< of a contact that passes current
   double near_jaws_m = 0.005;    ///< of what is held, that is no contact
+  double clip_n_per_m = 3000;    ///< of each node that hangs in a frame (a choice)
+  double frame_strain = 0.015;   ///< of a sheet as it is spread there (a choice)
+  double snip_m = 0.005;         ///< that a closing cuts at most there (training.md 5.2, E07)
+  double bite_n = 0.1;           ///< with which tips must press there, or it slips off them (a choice)
   SheetGripOptions grip = {};
   ScissorsOptions scissors = {};
 };
@@ -38,6 +48,12 @@ struct SheetSystemOptions {
 struct SheetContacts {
   const SolvedContacts& contacts;
   std::int32_t first_triangle = -1;  ///< -1: not known, none is a sheet's
+};
+
+/// A place that goes along with a sheet.
+struct SheetPlace {
+  std::size_t sheet = 0;
+  MaterialPoint on;
 };
 
 class SheetSystem {
@@ -67,9 +83,15 @@ class SheetSystem {
   GripBlock block() const { return block_; }
   GripHold hold() const { return hold_; }
 
-  std::span<const SurfacePtr> seen() const { return seen_; }         ///< for pictures, one a sheet
-  void add_nodes(std::vector<NodePlace>& nodes_T) const;             ///< of all, for TissueShape
-  std::span<const SheetChange> changed() const { return changed_; }  ///< in the last step
+  std::span<const SurfacePtr> seen() const { return seen_; }              ///< for pictures, one a sheet
+  void add_nodes(std::vector<NodePlace>& nodes_T) const;                  ///< of all, for TissueShape
+  std::span<const SheetChange> changed() const { return changed_; }       ///< in the last step
+  std::span<const SheetCutSeen> seen_cuts() const { return seen_cuts_; }  ///< of sheets in frames, all so far
+  /// Of the instrument's contacts on sheets, now, N.
+  double pull_n() const { return pull_n_; }
+  /// A place of a sheet in a frame, as it was drawn, by its triangle; nothing: none lies there.
+  std::optional<SheetPlace> place_on(const Vec3& drawn_T) const;
+  SurfacePlace now(const SheetPlace& place) const;
   std::int32_t cuts() const { return cuts_; }
   std::int32_t tears() const { return tears_; }
 
@@ -88,6 +110,12 @@ class SheetSystem {
     std::vector<std::int32_t> beneath = {};   ///< of each node: the organ's vertex that is nearest
     std::size_t lying = 0;                    ///< first spring of the last step that is of the organ beneath
     std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from there on
+    // In a frame:
+    std::vector<Vec3> drawn_T = {};         ///< of each node, where it was as the sheet was spread
+    std::vector<SheetEdge> cut_edges = {};  ///< so far: one alone parts nothing until the next one meets it
+    double opened_m = 0, pressed_n = 0;     ///< the blades' since they closed last; of the tips, now
+    int bite_steps = 0;                     ///< since they pressed enough
+    bool still = false;                     ///< nothing moves it: no step is made
   };
   void know(const SoftOrgan& organ);
   NodeShares shares_at(const SoftOrgan& organ, std::int32_t vertex) const;
@@ -95,6 +123,13 @@ class SheetSystem {
   void touch(std::size_t sheet, const SheetContacts& contacts, std::vector<SheetSpring>& springs);
   void lie(Sheet& of, const SoftOrgan& organ, std::vector<SheetSpring>& springs);
   void use_scissors(const StylusState& stylus);
+  void spread(Sheet& of) const;
+  void feel_tips(std::size_t sheet, const SheetContacts& contacts);
+  void use_tips(std::size_t sheet, const StylusState& stylus, bool scissors);
+  std::optional<SheetCutSeen> cut_between(std::size_t sheet, const Pose& X_TI, double half_m) const;
+  static bool leaves_crumb(const Sheet& of);
+  Vec3 through_rim(const Vec3& drawn_T, const Vec3& way) const;
+  void part_along(std::size_t sheet, const SheetCutSeen& cut);
   void burn(const StylusState& stylus, const SheetContacts& contacts);
   void part(std::size_t sheet, std::vector<SheetEdge> edges);
   void follow();
@@ -113,6 +148,8 @@ class SheetSystem {
   GripHold hold_;
   std::vector<SurfacePtr> seen_;
   std::vector<SheetChange> changed_;
+  std::vector<SheetCutSeen> seen_cuts_;
+  double pull_n_ = 0;
   std::int32_t cuts_ = 0, tears_ = 0;
 };
 

@@ -10,6 +10,7 @@ KindPicture touch_picture();
 KindPicture grasp_picture();
 KindPicture camera_picture();
 KindPicture wire_picture();
+KindPicture gauze_picture();
 KindPicture find_picture();
 KindPicture retract_picture();
 KindPicture palpate_picture();
@@ -19,9 +20,10 @@ KindPicture needle_picture();
 KindPicture dissect_picture();
 
 const KindPicture& picture_of(const Exercise& exercise) {
-  static const std::vector<KindPicture> pictures{
-      reach_picture(), touch_picture(),   grasp_picture(),   camera_picture(), pegs_picture(),   wire_picture(),
-      find_picture(),  retract_picture(), palpate_picture(), clip_picture(),   needle_picture(), dissect_picture()};
+  static const std::vector<KindPicture> pictures{reach_picture(),   touch_picture(), grasp_picture(), camera_picture(),
+                                                 pegs_picture(),    wire_picture(),  find_picture(),  retract_picture(),
+                                                 palpate_picture(), clip_picture(),  gauze_picture(), needle_picture(),
+                                                 dissect_picture()};
   return *std::find_if(pictures.begin(), pictures.end(),
                        [&](const KindPicture& picture) { return picture.kind == exercise.kind; });
 }

@@ -24,6 +24,7 @@
 #include "scenarios/layout/board_numbers.h"
 #include "scenarios/layout/height_field.h"
 #include "scenarios/layout/shaft_room.h"
+#include "scenarios/layout/sheet_frame.h"
 #include "tissue/interaction/suturing.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
@@ -253,6 +254,21 @@ std::optional<SheetSetup> laid_sheet(const SheetPlan& plan, const HeightField& o
   return out;
 }
 
+/// Spread in a frame over any organ.
+SheetSetup framed_sheet(const SheetPlan& plan, const HeightField& organ_T) {
+  SheetSetup out{
+      plan.name, rectangular_sheet(plan.along_m.norm(), plan.across_m, plan.edge_m), {}, plan.thickness_m, {}};
+  out.framed = true;
+  const SheetFrame frame(plan, organ_T);
+  for (std::size_t v = 0; v < out.drawn_T.vertices.size(); ++v) {
+    Vec3& vertex = out.drawn_T.vertices[v];
+    const Eigen::Vector2d place(vertex.x(), vertex.y());
+    if (frame.clipped(place)) out.hinge.push_back(static_cast<std::int32_t>(v));
+    vertex = frame.at(place);
+  }
+  return out;
+}
+
 /// The sheets of the exercise that this organ has. @throws InputError: a tissue that is not known.
 void lay_sheets(Scene& scene, const TissueTable& tissues) {
   const Exercise& exercise = scene.setup.exercise;
@@ -262,7 +278,9 @@ void lay_sheets(Scene& scene, const TissueTable& tissues) {
     if (!tissues.knows(plan.material))
       throw InputError(exercise.file.string() + ": sheet '" + plan.name + "': 'material': no tissue is called '" +
                        plan.material + "'");
-    auto laid = plan.organ == scene.organ.material ? laid_sheet(plan, field) : std::nullopt;
+    auto laid = plan.organ.empty()                   ? std::optional(framed_sheet(plan, field))
+                : plan.organ == scene.organ.material ? laid_sheet(plan, field)
+                                                     : std::nullopt;
     if (!laid) {
       scene.thin_left_out.push_back(plan.name);
       continue;

@@ -59,6 +59,8 @@ std::string critical_advice(const Advised& a) {
     return a.words("Try next: only roll once the point is in; whoever pushes across the needle tears.");
   if (event == event_type::kPerforated)
     return a.words("Try next: let go of the pedal before you move the hook over the liver.");
+  if (event == event_type::kGauzeTorn)
+    return a.words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
   return a.words("Try next: the same again, slower.");
 }
 
@@ -174,6 +176,10 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: go straight to the vessel, press the tip on it, and stay until it is dry.");
   if (m == "strand_current_s")
     return words("Try next: let the strand lie on the foot of the hook, then one short press.");
+  if (m == "cut_area_share" || m == "cut_outside_share")
+    return words("Try next: before each snip stop over the line and see both tips on it; roll before you press.");
+  if (m == "hard_pulls")
+    return words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
@@ -260,6 +266,10 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "ring_angle_deg") return words("The ring stood {0} off square on average.", {row.value});
   if (m == "block_regrasps")
     return words(row.raw == 1 ? "Once grasped again." : "{0} times grasped again.", {row.value});
+  if (m == "cut_area_share") return words("Between cut and line lie {0} of what the line encloses.", {row.value});
+  if (m == "cut_outside_share") return words("{0} of the line's length was cut outside the band.", {row.value});
+  if (m == "hard_pulls")
+    return words(row.raw == 1 ? "Once pulled too hard." : "{0} times pulled too hard.", {row.value});
   if (m == "clip_errors") return words(row.raw == 1 ? "One mistake." : "{0} mistakes.", {row.value});
   if (m == "entry_error_m") return words("In {0} beside the dot on average.", {row.value});
   if (m == "exit_error_m") return words("Out {0} beside the dot on average.", {row.value});

@@ -138,6 +138,10 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kNoduleFound) return words("Nodule found");
   if (type == event_type::kFalseMark) return words("False mark");
   if (type == event_type::kSearchEnded) return words("Search ended");
+  if (type == event_type::kSnip) return words("Snip");
+  if (type == event_type::kOffLine) return words("Cut off the line");
+  if (type == event_type::kPulledHard) return words("Gauze pulled too hard");
+  if (type == event_type::kGauzeTorn) return words("Gauze torn");
   if (type == event_type::kNamed) return words("Named by touch");
   if (type == event_type::kClipSet) return words("Clip set");
   if (type == event_type::kClipWasted) return words("Clip wasted");

@@ -52,6 +52,7 @@ std::string critical_words(const Translator& words, const AttemptResult& result,
   if (event.type == event_type::kLost) return words("Lost at {0} s: it lies outside the field.", {t});
   if (event.type == event_type::kCrush) return words("Too many blocks crushed, the last one at {0} s.", {t});
   if (event.type == event_type::kRingOff) return words("The ring was pulled off the wire at {0} s.", {t});
+  if (event.type == event_type::kGauzeTorn) return words("The gauze was torn at {0} s.", {t});
   if (event.type == event_type::kCutTooSoon)
     return words("Opened at {0} s without two clips before the cut and one beyond it.", {t});
   if (event.type == event_type::kWrongStructure) return words("What must be spared was clipped or cut at {0} s.", {t});

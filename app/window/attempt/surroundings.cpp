@@ -129,7 +129,7 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   out.now = hand;
   const bool sews = status.cue == Cue::kTakeNeedle || status.cue == Cue::kDrive || status.cue == Cue::kPull;
   out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || status.cue == Cue::kGrip || status.cue == Cue::kSearch ||
-             status.cue == Cue::kClip || status.cue == Cue::kSever || sews;
+             status.cue == Cue::kClip || status.cue == Cue::kSever || status.cue == Cue::kSnip || sews;
   const std::vector<InstrumentKind>& instruments = s.scene.setup.exercise.instruments;
   out.in_tissue = !out.jaws && instruments.front() != InstrumentKind::kProbe;
   const auto in_hand = std::min(static_cast<std::size_t>(record.stylus.instrument), instruments.size() - 1);

@@ -10,6 +10,7 @@ KindLesson touch_lesson();
 KindLesson grasp_lesson();
 KindLesson camera_lesson();
 KindLesson wire_lesson();
+KindLesson gauze_lesson();
 KindLesson find_lesson();
 KindLesson retract_lesson();
 KindLesson palpate_lesson();
@@ -19,9 +20,10 @@ KindLesson pegs_lesson();
 KindLesson needle_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(),  camera_lesson(),
-                                               pegs_lesson(),    wire_lesson(),  find_lesson(),   retract_lesson(),
-                                               palpate_lesson(), clip_lesson(),  needle_lesson(), dissect_lesson()};
+  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(), camera_lesson(),
+                                               pegs_lesson(),    wire_lesson(),  find_lesson(),  retract_lesson(),
+                                               palpate_lesson(), clip_lesson(),  gauze_lesson(), needle_lesson(),
+                                               dissect_lesson()};
   return lessons;
 }
 
