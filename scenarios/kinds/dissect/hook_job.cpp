@@ -19,11 +19,11 @@ constexpr double kHookLate = 0.16;                            // s: the eyes are
 constexpr double kHookLook = 0.05;                            // s of looking, before speed_factor
 constexpr double kQuickestHook = 0.12;                        // s
 constexpr double kHookGood = 0.0040;                          // m off, before settle_share
-constexpr double kComesAlong = 0.2;  // share of the lift that is shown, from which it is seen to come along
-constexpr double kInVainFor = 4;     // s, before speed_factor, of current before the person begins anew
-constexpr double kSinks = 0.003;     // m/s by which the tip is let down until so much is felt:
-constexpr double kLies = 0.25;       // N, or so deep:
-constexpr double kDeepest = 0.0010;  // m of the tip's middle under the place
+constexpr double kComesAlong = 0.2;      // share of the lift that is shown, from which it is seen to come along
+constexpr double kInVainFor = 4;         // s, before speed_factor, of current before the person begins anew
+constexpr double kSinks = 0.003;         // m/s by which the tip is let down until so much is felt:
+constexpr double kLies = 0.25;           // N, or so deep:
+constexpr double kHookDeepest = 0.0010;  // m of the tip's middle under the place
 
 }  // namespace
 
@@ -109,7 +109,7 @@ void HookJob::weigh(const Percept& percept, const HandIntent& intent, HandRandom
 void HookJob::burn(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent) {
   intent.pedal = true;
   const double depth = (percept.target_T - percept.tip_T).dot(percept.target_normal_T);
-  if (step_ == Step::kPress && senses.touch_n() < kLies && depth < kDeepest)
+  if (step_ == Step::kPress && senses.touch_n() < kLies && depth < kHookDeepest)
     intent.X_TI.p -= kSinks / skill_.speed_factor * dt_s * percept.target_normal_T;
   if (in_step_s_ < kInVainFor * skill_.speed_factor) return;
   rise(percept, kDrawnBack, intent);

@@ -12,7 +12,7 @@ constexpr double kPullEnds = 0.8, kPullRearm = 0.1;  // of the limit; s
 constexpr double kCutAhead = 0.45;  // of a step, from what is cut to the middle of the next snip: they overlap a little
 constexpr double kFirstAhead = 0.5;     // the same from the edge, which gives way more: the rim parts with the cut
 constexpr double kWithin = 0.010;       // m that gauze is moved at most by who cuts it; what moves further has come off
-constexpr double kMeets = 0.4;          // of a step: the last snip of the way in just meets the closed line
+constexpr double kOnLine = 0.4;         // of a step: the last snip of the way in just meets the closed line
 constexpr double kGoodShare = 0.5;      // of the band about the line, that is aimed for
 constexpr double kAheadGoal = 1.0;      // of a step, from there to where the line goes
 constexpr double kBlamedFor = 2.5;      // s for which a mistake is shown
@@ -47,7 +47,7 @@ void GauzeTask::ask_next(EventLog& log) {
   if (finished()) return;
   const double from = line_.uncut_from_m(), all = line_.way_in_m() + line_.round_m();
   double arc = std::min(from + (from > 0 ? kCutAhead : kFirstAhead) * rules_.step_m, all);
-  if (from < line_.way_in_m()) arc = std::min(arc, line_.way_in_m() - kMeets * rules_.step_m);
+  if (from < line_.way_in_m()) arc = std::min(arc, line_.way_in_m() - kOnLine * rules_.step_m);
   if (asked_ >= 0 && arc == next_arc_m_) return;
   next_arc_m_ = arc;
   const LinePlace at = line_.at(arc);

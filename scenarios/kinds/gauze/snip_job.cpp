@@ -20,7 +20,7 @@ constexpr double kOutSpeed = 0.080;                   // m/s, before speed_facto
 constexpr double kOutOver = 0.001;                    // m over the gauze, where tips are out of the cut
 constexpr double kLightest = 0.2;                     // of the force that is meant
 constexpr double kQuickestSnipReach = 0.12;           // s
-constexpr double kDeepest = 0.040;                    // m on from the hover, felt or not: then it closes all the same
+constexpr double kSnipDeepest = 0.040;                // m on from the hover, felt or not: then it closes all the same
 constexpr double kSlowNear = 0.7;                     // of the approach speed, once something is felt
 constexpr double kFelt = 0.12;                        // N
 constexpr double kSnipTurn = 30 * std::numbers::pi / 180, kSnipTurnFloor = 0.15;  // of the aim error of turns
@@ -87,7 +87,7 @@ void SnipJob::press(const Percept& percept, const HandSenses& senses, double dt_
   const double speed = skill_.approach_speed_mps * (senses.touch_n() > kFelt ? kSlowNear : 1.0);
   intent.X_TI.p -= speed * dt_s * percept.target_normal_T;
   if (skill_.max_corrections > 0) follow(percept, dt_s, intent);
-  const bool deep = in_step_s_ * skill_.approach_speed_mps > kDeepest;
+  const bool deep = in_step_s_ * skill_.approach_speed_mps > kSnipDeepest;
   if (senses.force_n() >= goal_n_ || deep) enter(Step::kClose);
 }
 

@@ -12,7 +12,7 @@ constexpr double kOpenDriver = 0.008;                     // m: the wire lies fr
 constexpr double kOpenSeen = 0.75;                        // of that: nothing is held any more
 constexpr double kShutDriver = -0.010;                    // m of intent: the fingers press beyond the wire
 constexpr double kDriverSpeed = 0.030;                    // m/s of opening and closing
-constexpr double kShutFor = 0.15;                         // s
+constexpr double kNeedleShutFor = 0.15;                   // s
 constexpr double kOverNeedle = 0.020;                     // m along the shaft at which the reach ends
 constexpr double kOverDot = 0.0025;                       // m over the tissue, at which the needle is looked at
 constexpr double kNeedleLate = 0.16, kNeedleLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
@@ -27,7 +27,7 @@ constexpr double kRollMore = 12 * kDegree, kMostMore = 30 * kDegree;  // while i
 constexpr double kDrawRoll = 145 * kDegree;
 constexpr double kDrawOut = 0.030;                             // m
 constexpr double kTurnAim = 30 * kDegree, kTurnAtRest = 0.15;  // of the aim error of turns
-constexpr double kStaysFor = 1.2;                              // s, before what came to nothing is tried again
+constexpr double kNeedleStaysFor = 1.2;                        // s, before what came to nothing is tried again
 
 Vec3 aside(const Vec3& v, const Vec3& axis) { return (v - v.dot(axis) * axis).normalized(); }
 
@@ -110,7 +110,7 @@ void NeedleJob::shut(double dt_s, HandIntent& intent) const {
 void NeedleJob::close(double dt_s, HandIntent& intent) {
   shut(dt_s, intent);
   if (intent.jaw_opening_m > kShutDriver) in_step_s_ = 0;
-  if (in_step_s_ > kShutFor + kStaysFor + skill_.reaction_s + skill_.pause_s) enter(Step::kOpen);
+  if (in_step_s_ > kNeedleShutFor + kNeedleStaysFor + skill_.reaction_s + skill_.pause_s) enter(Step::kOpen);
 }
 
 /// Plans a movement of the needle in the jaws: its point over the first dot, its circle turned to go through both.

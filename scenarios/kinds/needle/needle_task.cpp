@@ -9,8 +9,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kToldNeedleFor = 3;  // s for which a mistake is shown
-constexpr double kPointStep = 0.001;  // m of the point's way that is judged at once: less is tremor
+constexpr double kToldNeedleFor = 3;     // s for which a mistake is shown
+constexpr double kPointWayStep = 0.001;  // m of the point's way that is judged at once: less is tremor
 constexpr double kInDegrees = 180 / std::numbers::pi;
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -60,7 +60,7 @@ void NeedleTask::follow_grip(const TissueFrame& frame, EventLog& log) {
 /// Of the point's way through the tissue, how far it leads off its own direction.
 void NeedleTask::follow_point(const NeedleSight& needle) {
   const Vec3 point = needle.X_TN * own_.shape.place(own_.shape.length_m), way = point - point_T_;
-  if (way.norm() < kPointStep) return;
+  if (way.norm() < kPointWayStep) return;
   const Vec3 along = needle.X_TN.R * own_.shape.tangent(own_.shape.length_m);
   way_deg_m_ += way.norm() * kInDegrees * angle_between(way, along + point_along_T_);
   way_m_ += way.norm();
