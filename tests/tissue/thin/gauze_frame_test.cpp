@@ -53,7 +53,8 @@ class Gauze {
     if (press_n > 0) {
       state_.contacts.count = 1;
       SolvedContact& contact = state_.contacts.at[0];
-      contact.place = {static_cast<std::int32_t>(setup_.organ_T->triangles.size()) + middle(), {1. / 3, 1. / 3, 1. / 3}};
+      contact.place = {static_cast<std::int32_t>(setup_.organ_T->triangles.size()) + middle(),
+                       {1. / 3, 1. / 3, 1. / 3}};
       contact.normal_T = Vec3::UnitZ();
       contact.force_T = press_n * Vec3::UnitZ();
       contact.tool_T = Vec3(0, 0, kHigh - 0.002);
@@ -94,7 +95,8 @@ TEST(GauzeFrame, ItIsTautLevelAndAtRest) {
   EXPECT_EQ(gauze.frame().sheet_cut_count, 0);
   EXPECT_EQ(gauze.frame().sheet_pull_n, 0);
   ASSERT_EQ(gauze.frame().place_count, 1);
-  EXPECT_LT((gauze.frame().place[0].point_T - Vec3(0.010, 0, kHigh)).norm(), 0.001) << "a place on it goes along with it";
+  EXPECT_LT((gauze.frame().place[0].point_T - Vec3(0.010, 0, kHigh)).norm(), 0.001)
+      << "a place on it goes along with it";
 }
 
 TEST(GauzeFrame, PressedTipsThatCloseCutASnipAlongTheirWay) {
