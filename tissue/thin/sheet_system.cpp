@@ -136,7 +136,7 @@ bool SheetSystem::jaws_taken(const StylusState& stylus, const Tool& tool, bool p
   if (!grasps && tool.kind != InstrumentKind::kScissors) return false;
   if (!grasps && open_) return true;
   return std::any_of(sheets_.begin(), sheets_.end(), [&](const Sheet& of) {
-    if (of.setup.framed && !grasps) return false;
+    if (of.setup.framed && !grasps) return of.bite_steps <= kBiteSteps;
     return of.grip.state() != GripState::kEmpty ||
            !triangles_between(of.sheet, stylus.X_TI, grasps ? options_.grip.pad_length_m : options_.scissors.blade_m,
                               grasps ? options_.grip.pad_width_m : options_.scissors.width_m, stylus.jaw_opening_m, 0)

@@ -114,7 +114,7 @@ class SheetSystem {
     std::vector<Vec3> drawn_T = {};         ///< of each node, where it was as the sheet was spread
     std::vector<SheetEdge> cut_edges = {};  ///< so far: one alone parts nothing until the next one meets it
     double opened_m = 0, pressed_n = 0;     ///< the blades' since they closed last; of the tips, now
-    int bite_steps = 0;                     ///< since they pressed enough
+    int bite_steps = 1000;                  ///< since they pressed enough
     bool still = false;                     ///< nothing moves it: no step is made
   };
   void know(const SoftOrgan& organ);

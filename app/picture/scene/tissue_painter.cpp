@@ -27,7 +27,8 @@ constexpr std::pair<std::string_view, std::string_view> kLooks[] = {
     {"cava", "LOOK_VEIN"},        {"pancreas", "LOOK_PANCREAS"},
     {"adrenal", "LOOK_PANCREAS"}, {"vertebra", "LOOK_BONE"},
     {"spine", "LOOK_BONE"},       {"bone", "LOOK_BONE"},
-    {"hip", "LOOK_BONE"},         {"rib", "LOOK_BONE"}};
+    {"hip", "LOOK_BONE"},         {"rib", "LOOK_BONE"},
+    {"gauze", "LOOK_BONE"}};  // as pale
 
 /// A gallbladder alone lies on the liver; everything else on fat.
 std::string bed_look(const SceneView& view) {

@@ -64,11 +64,15 @@ void SnipJob::reach(const Percept& percept, const HandIntent& intent, HandRandom
   enter(Step::kReach);
 }
 
-/// Sideways, as the eyes tell, until the place is near enough for this person.
+/// Sideways and about, as the eyes tell, until the place is near enough for this person.
 void SnipJob::follow(const Percept& percept, double dt_s, HandIntent& intent) const {
   const Vec3 aside = aside_of(percept);
   const double off = aside.norm(), good = kGoodEnough * skill_.settle_share * percept.target_radius_m;
   if (off > good) intent.X_TI.p += aside * (kAsideGain / skill_.speed_factor * (1 - good / off) * dt_s);
+  const Eigen::AngleAxisd missing(Mat3(percept.target_R_TI * percept.R_TI.transpose()));
+  if (missing.angle() > kGoodEnough * skill_.settle_share * percept.target_angle_rad)
+    intent.X_TI.R =
+        rotation_by(kAsideGain / skill_.speed_factor * dt_s * missing.angle() * missing.axis()) * intent.X_TI.R;
 }
 
 void SnipJob::look(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
