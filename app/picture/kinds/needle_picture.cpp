@@ -8,7 +8,7 @@ namespace trocar {
 namespace {
 
 const Vec3 kStandFoam(0.16, 0.30, 0.55);
-constexpr double kStandWide = 0.016, kStandDeep = 0.006, kStandHigh = 0.010;    // m
+constexpr double kStandWide = 0.010, kStandDeep = 0.004, kStandHigh = 0.006;    // m
 constexpr double kSlitRadius = 0.0006, kSlitStep = 0.002, kSlitBeyond = 0.004;  // m, of the dots that draw the slit
 
 /// The block in which needles stand, its lower part.
@@ -39,7 +39,7 @@ void add_dots(const SessionView& view, std::vector<TargetMark>& out) {
     const int before = pair == 0 ? static_cast<int>(kSlitBeyond / kSlitStep) : 0;
     const int beyond = pair + 2 == pairs ? static_cast<int>(kSlitBeyond / kSlitStep) : 0;
     for (int i = -before; i < steps + beyond; ++i)
-      out.push_back({from + way * i / steps, dots[pair].normal_T, kSlitRadius, TargetMark::State::kDone});
+      out.push_back({from + way * i / steps, dots[pair].normal_T, kSlitRadius, TargetMark::State::kWaiting});
   }
 }
 

@@ -20,9 +20,10 @@ constexpr double kQuickestNeedle = 0.15;                  // s of a reach
 constexpr double kPressOn = 0.0025;     // m by which tissue gives way before the point goes in, as a person expects
 constexpr double kNeedleClear = 0.010;  // m to which the needle is lifted
 constexpr double kKeepGain = 2, kKeepRest = 0.0003;  // 1/s by which it is kept over the dot; m that are not seen
-constexpr double kPressTime = 0.8;                   // s, before speed_factor
-constexpr double kRollSpeed = 45 * kDegree;          // rad/s, before speed_factor
-constexpr double kBeyond = 48 * kDegree;             // of the needle that shall stand out at the end
+constexpr double kSteerGain = 0.8, kSteersFrom = 0.002, kMostSteered = 0.004;  // 1/s; m, of settle_share; m
+constexpr double kPressTime = 0.8;                                             // s, before speed_factor
+constexpr double kRollSpeed = 45 * kDegree;                                    // rad/s, before speed_factor
+constexpr double kBeyond = 48 * kDegree;                              // of the needle that shall stand out at the end
 constexpr double kRollMore = 12 * kDegree, kMostMore = 30 * kDegree;  // while it does not; before it is given up
 constexpr double kDrawRoll = 145 * kDegree;
 constexpr double kDrawOut = 0.030;                             // m
@@ -162,6 +163,7 @@ void NeedleJob::begin_roll(Step step, const Percept& percept, double by_rad, con
   const double noise = std::sqrt(kTurnAtRest) * skill_.aim_lateral_m;
   const Vec3 error = noise * Vec3(random.normal(), random.normal(), random.normal());
   from_ = intent.X_TI;
+  aside_ = Vec3::Zero();
   middle_T_ = intent.X_TI.p + percept.object.X_TO.p - percept.tip_T + error;
   shaft_T_ = percept.R_TI.col(2);
   by_rad_ = by_rad;
@@ -173,6 +175,19 @@ void NeedleJob::roll(HandIntent& intent) const {
   const double angle = -by_rad_ * minimum_jerk(in_step_s_ / roll_s_);
   const Mat3 R = Eigen::AngleAxisd(angle, shaft_T_).toRotationMatrix();
   intent.X_TI = {R * from_.R, middle_T_ + R * (from_.p - middle_T_)};
+}
+
+/// Keeps the circle, as it is seen, on the second dot: what tissue gives way is made up for.
+void NeedleJob::steer(const Percept& percept, double dt_s, HandIntent& intent) {
+  const Pose& X_TN = percept.object.X_TO;
+  const Vec3 dot_N = X_TN.inverse() * percept.goal_T, out_N = Vec3(dot_N.x(), dot_N.y(), 0).normalized();
+  const Vec3 off_N = (dot_N - dot_N.z() * Vec3::UnitZ()).norm() * out_N - percept.object.size_m.y() * out_N +
+                     dot_N.z() * Vec3::UnitZ();
+  const double seen = skill_.settle_share * kSteersFrom;
+  if (const double size = off_N.norm(); size > seen && in_step_s_ < roll_s_)
+    aside_ += X_TN.R * off_N * (kSteerGain / skill_.speed_factor * (1 - seen / size) * dt_s);
+  if (const double size = aside_.norm(); size > kMostSteered) aside_ *= kMostSteered / size;
+  intent.X_TI.p += aside_;
 }
 
 /// It should have come out by now: a little further, or back and anew.
@@ -230,6 +245,7 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
       return;
     case Step::kRoll:
       roll(intent);
+      steer(percept, dt_s, intent);
       return rolled(percept, intent, random);
     case Step::kUnroll:
       roll(intent);

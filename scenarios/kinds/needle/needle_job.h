@@ -55,6 +55,7 @@ class NeedleJob : public HandWork {
   void press(const Percept& percept, double dt_s, HandIntent& intent);
   void begin_roll(Step step, const Percept& percept, double by_rad, const HandIntent& intent, HandRandom& random);
   void roll(HandIntent& intent) const;
+  void steer(const Percept& percept, double dt_s, HandIntent& intent);
   void rolled(const Percept& percept, const HandIntent& intent, HandRandom& random);
   bool moves(HandIntent& intent) const;
 
@@ -65,7 +66,7 @@ class NeedleJob : public HandWork {
   Cue cue_ = Cue::kNone;
   double in_step_s_ = 0, noticed_s_ = 0;
   Vec3 over_T_ = Vec3::Zero();      ///< over the dot, where the point is brought
-  Vec3 aside_ = Vec3::Zero();       ///< moved sideways as it was pressed on
+  Vec3 aside_ = Vec3::Zero();       ///< moved sideways as it is pressed on or rolled
   Vec3 middle_T_ = Vec3::Zero();    ///< about which it is rolled,
   Vec3 shaft_T_ = Vec3::UnitZ();    ///< and along which,
   Pose from_;                       ///< from where,

@@ -39,7 +39,9 @@ TEST(NeedleLayout, EveryBoardHasTheGeometryOfTheFile) {
         const Target &in = out.targets[pair], &exit = out.targets[4 + pair];
         EXPECT_NEAR((exit.centre_T - in.centre_T).norm(), rules.apart_m, 1e-9);
         EXPECT_NEAR(in.centre_T.z(), kTop, 1e-9);
-        if (pair > 0) EXPECT_NEAR((in.centre_T - out.targets[pair - 1].centre_T).norm(), rules.pair_gap_m, 1e-9);
+        if (pair > 0) {
+          EXPECT_NEAR((in.centre_T - out.targets[pair - 1].centre_T).norm(), rules.pair_gap_m, 1e-9);
+        }
         const Vec3 along = (exit.centre_T - in.centre_T).normalized();
         EXPECT_LT(std::abs(along.dot(in.R_TI.col(2))), std::sin(rules.turn_rad + 0.2)) << "across the shaft";
       }
