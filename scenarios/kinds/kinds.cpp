@@ -17,8 +17,8 @@
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
-  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(), grasp_kind(), camera_kind(),
-                                                  pegs_kind(),    wire_kind(),  find_kind(),  retract_kind(),
+  static const std::vector<KindDescription> kinds{reach_kind(),   touch_kind(), grasp_kind(),  camera_kind(),
+                                                  pegs_kind(),    wire_kind(),  find_kind(),   retract_kind(),
                                                   palpate_kind(), clip_kind(),  dissect_kind()};
   return kinds;
 }

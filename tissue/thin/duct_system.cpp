@@ -297,9 +297,8 @@ void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const Sof
     const Duct& duct = ducts_[d];
     const bool stumps = duct.setup.slack && !whole(duct);  // they lie down before what comes
     const bool held = duct.grip.state() != GripState::kEmpty || duct.clasp.state() != GripState::kEmpty;
-    between_[d] =
-        stumps || duct.hook.holds() ||
-        (jaws && (held || !arcs_between(duct.tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+    between_[d] = stumps || duct.hook.holds() ||
+                  (jaws && (held || !arcs_between(duct.tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
   }
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);

@@ -58,7 +58,8 @@ void RodHook::reach(const Pose& X_TI, const ElasticRod& rod, std::vector<RodSpri
   const Vec3 point = X_TI.inverse() * rod.place_at(arc_m_);
   if (!on_foot(point.y())) return let_go();
   const Vec3 off = point - Vec3(0, point.y(), options_.foot_z_m), aside = Vec3::UnitY().cross(held_->away_I);
-  springs.push_back({arc_m_, -(X_TI.R * held_->away_I), options_.push_n_per_m, clear - held_->away_I.dot(off), true, 0});
+  springs.push_back(
+      {arc_m_, -(X_TI.R * held_->away_I), options_.push_n_per_m, clear - held_->away_I.dot(off), true, 0});
   springs.push_back({arc_m_, X_TI.R * aside, options_.push_n_per_m, aside.dot(off) - held_->aside_m, false, 0});
   springs.push_back({arc_m_, X_TI.R.col(1), options_.push_n_per_m, clear + point.y(), true, 0});
 }
@@ -76,8 +77,8 @@ void RodHook::feel(const Pose& X_TI, std::span<const RodSpring> springs, const E
   if (load_n_ <= 0 || std::abs(held_->aside_m) > kMostAside) held_.reset();
   if (load_n_ <= 0) return;
   hold_.point_I = X_TI.inverse() * rod.place_at(arc_m_);
-  hold_.stiffness_n_per_m = std::min(options_.most_loop_n_per_m,
-                                     loop_stiffness(rod, arc_m_, pull_T.normalized(), options_.push_n_per_m));
+  hold_.stiffness_n_per_m =
+      std::min(options_.most_loop_n_per_m, loop_stiffness(rod, arc_m_, pull_T.normalized(), options_.push_n_per_m));
   hold_.anchor_T = X_TI * hold_.point_I + pull_T / hold_.stiffness_n_per_m;
 }
 

@@ -31,7 +31,8 @@ class RodHook {
  public:
   explicit RodHook(const RodHookOptions& options = {}) : options_(options) {}
 
-  /// Before the rod's step: whether it is in the crook now, and the springs by which the wire holds it where it touches.
+  /// Before the rod's step: whether it is in the crook now, and the springs by which the wire holds it where it
+  /// touches.
   void reach(const Pose& X_TI, const ElasticRod& rod, std::vector<RodSpring>& springs);
   /// After the step. @param springs those that reach() added, their forces filled in
   void feel(const Pose& X_TI, std::span<const RodSpring> springs, const ElasticRod& rod);

@@ -46,9 +46,9 @@ PictureMesh hook_body(double radius_m, double length_m) {
   }
   const double z = front - wire;
   for (const auto& [out, radius] : {std::pair(foot - 0.5 * kMilli, wire),
-                                  {foot - 0.15 * kMilli, 0.8 * wire},
-                                  {foot, 0.4 * wire},
-                                  {foot + 0.02 * kMilli, 0.0}})
+                                    {foot - 0.15 * kMilli, 0.8 * wire},
+                                    {foot, 0.4 * wire},
+                                    {foot + 0.02 * kMilli, 0.0}})
     way.push_back({{0, -out, z}, -Vec3::UnitY(), radius});
   constexpr int kAround = 14;
   append(mesh, loft(

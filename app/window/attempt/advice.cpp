@@ -157,8 +157,10 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "safe_energy_share")
     return words("Try next: lift, look, and only then press; let go as soon as the strand parts or it is dry.");
   if (m == "strands_lifted_share") return words("Try next: lift each strand clear of the liver before the current.");
-  if (m == "spurted_ml") return words("Try next: go straight to the vessel, press the tip on it, and stay until it is dry.");
-  if (m == "strand_current_s") return words("Try next: let the strand lie on the foot of the hook, then one short press.");
+  if (m == "spurted_ml")
+    return words("Try next: go straight to the vessel, press the tip on it, and stay until it is dry.");
+  if (m == "strand_current_s")
+    return words("Try next: let the strand lie on the foot of the hook, then one short press.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
     return words("Try next: lift in one slow move, and stop where the pull is right.");

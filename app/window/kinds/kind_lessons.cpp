@@ -18,8 +18,8 @@ KindLesson dissect_lesson();
 KindLesson pegs_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(), camera_lesson(),
-                                               pegs_lesson(),    wire_lesson(),  find_lesson(),  retract_lesson(),
+  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(),  camera_lesson(),
+                                               pegs_lesson(),    wire_lesson(),  find_lesson(),   retract_lesson(),
                                                palpate_lesson(), clip_lesson(),  dissect_lesson()};
   return lessons;
 }

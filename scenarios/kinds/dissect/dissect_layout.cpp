@@ -17,11 +17,11 @@ namespace {
 
 constexpr int kBedDraws = 200, kVesselDraws = 60;
 constexpr int kColumns = 3, kRows = 2;
-constexpr int kArcPoints = 9;           // of a strand's path
-constexpr double kColumnShare = 0.4;    // of the bed's width, between two columns of strands
-constexpr double kRowShare = 0.5;       // of its length, between the two rows
-constexpr double kScatter = 0.001;      // m of a strand's middle, either way
-constexpr double kEdge = 0.003;         // m from the bed's edge to a vessel
+constexpr int kArcPoints = 9;            // of a strand's path
+constexpr double kColumnShare = 0.4;     // of the bed's width, between two columns of strands
+constexpr double kRowShare = 0.5;        // of its length, between the two rows
+constexpr double kScatter = 0.001;       // m of a strand's middle, either way
+constexpr double kEdge = 0.003;          // m from the bed's edge to a vessel
 constexpr double kLeastSpanShare = 0.7;  // of the span that must be left between vertices
 
 /// Across the foot of the hook at a place, seen from above: the way of the foot and that of the strands.

@@ -1,5 +1,5 @@
-// Bleeders and hook: strands over the bed of a gallbladder are lifted on a hook and divided by current, then the vessels
-// that spurt are coagulated, as an exercise file describes it.
+// Bleeders and hook: strands over the bed of a gallbladder are lifted on a hook and divided by current, then the
+// vessels that spurt are coagulated, as an exercise file describes it.
 //
 // Every duct of the exercise is a strand; a board says where they run and where the vessels open. The targets of a
 // board are the strands' places on the organ, then those of the vessels. SI. Thread: plain values, fixed after loading.

@@ -2,13 +2,12 @@
 // coagulated.
 //
 // Judged is what the tissue's frame tells. Strands may be divided in any order; asked for is the first that is whole.
-// A strand counts if the tip stood `lift_m` off the organ as current parted it. The vessels open when the last strand is
-// divided, all at once; they are asked for one after the other. One is sealed when hardly anything comes from it; its
-// time runs from when it lit.
-// Current is counted to the object that is lit: as safe what passes through the lit strand in the crook, or into the
-// tissue beside the lit vessel, up to counted_s; as unsafe what flows while the tip is nearer to the organ than near_m
-// (but for forgiven_s of each object, and not beside the lit vessel), or out of view. What flows elsewhere is neither. A
-// clutch changes nothing of that: the instrument stays live where it stands.
+// A strand counts if the tip stood `lift_m` off the organ as current parted it. The vessels open when the last strand
+// is divided, all at once; they are asked for one after the other. One is sealed when hardly anything comes from it;
+// its time runs from when it lit. Current is counted to the object that is lit: as safe what passes through the lit
+// strand in the crook, or into the tissue beside the lit vessel, up to counted_s; as unsafe what flows while the tip is
+// nearer to the organ than near_m (but for forgiven_s of each object, and not beside the lit vessel), or out of view.
+// What flows elsewhere is neither. A clutch changes nothing of that: the instrument stays live where it stands.
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit); STRAND_LIFTED (m off the organ), the first time of each strand;
 // STRAND_DIVIDED (m off the organ), minor where it was too low or torn; CURRENT_USED (s, safe) and UNSAFE_CURRENT
@@ -64,8 +63,8 @@ class DissectTask final : public ExerciseTask {
   std::string display_;
   std::bitset<kDissectAims> done_, lifted_, late_;
   int asked_ = 0, errors_ = 0;
-  Current untold_;                                                  ///< of the lit object
-  std::array<double, kDissectAims> near_s_{}, safe_s_{};            ///< of each object
+  Current untold_;                                        ///< of the lit object
+  std::array<double, kDissectAims> near_s_{}, safe_s_{};  ///< of each object
   bool spurting_ = false, perforated_ = false, hooked_ = false, unsafe_ = false;
   double lit_at_s_ = 0, now_s_ = 0, gap_m_ = 0, cut_m2_ = -1;
   Told told_;

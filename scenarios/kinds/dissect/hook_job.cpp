@@ -8,22 +8,22 @@ namespace {
 
 // The hook as a person knows it: foot towards -y of the instrument, so far beyond the tip's middle along the shaft.
 constexpr double kFootBeyond = 0.00165, kFootUnder = 0.0025;  // m; under a strand's axis
-constexpr double kOnFoot = 0.0036;       // m along the foot at which a strand shall lie
-constexpr double kAside = 0.0052;        // m further to the side, while the hook goes down
-constexpr double kHookOver = 0.015;      // m over the place at which the reach ends
-constexpr double kDrawnBack = 0.015;     // m that the hook is drawn back before it crosses
-constexpr double kLower = 0.0008;        // m lower with each try that came up without the strand
-constexpr int kHeights = 3;              // that it is tried at
-constexpr double kPressIn = 0.0010;      // m that the tip is set into the tissue over a vessel
-constexpr double kHookLate = 0.16;       // s: the eyes are that late
-constexpr double kHookLook = 0.05;       // s of looking, before speed_factor
-constexpr double kQuickestHook = 0.12;   // s
-constexpr double kHookGood = 0.0040;     // m off, before settle_share
-constexpr double kComesAlong = 0.2;      // share of the lift that is shown, from which it is seen to come along
-constexpr double kInVainFor = 4;         // s, before speed_factor, of current before the person begins anew
-constexpr double kSinks = 0.003;         // m/s by which the tip is let down until so much is felt:
-constexpr double kLies = 0.25;           // N, or so deep:
-constexpr double kDeepest = 0.0010;      // m of the tip's middle under the place
+constexpr double kOnFoot = 0.0036;                            // m along the foot at which a strand shall lie
+constexpr double kAside = 0.0052;                             // m further to the side, while the hook goes down
+constexpr double kHookOver = 0.015;                           // m over the place at which the reach ends
+constexpr double kDrawnBack = 0.015;                          // m that the hook is drawn back before it crosses
+constexpr double kLower = 0.0008;                             // m lower with each try that came up without the strand
+constexpr int kHeights = 3;                                   // that it is tried at
+constexpr double kPressIn = 0.0010;                           // m that the tip is set into the tissue over a vessel
+constexpr double kHookLate = 0.16;                            // s: the eyes are that late
+constexpr double kHookLook = 0.05;                            // s of looking, before speed_factor
+constexpr double kQuickestHook = 0.12;                        // s
+constexpr double kHookGood = 0.0040;                          // m off, before settle_share
+constexpr double kComesAlong = 0.2;  // share of the lift that is shown, from which it is seen to come along
+constexpr double kInVainFor = 4;     // s, before speed_factor, of current before the person begins anew
+constexpr double kSinks = 0.003;     // m/s by which the tip is let down until so much is felt:
+constexpr double kLies = 0.25;       // N, or so deep:
+constexpr double kDeepest = 0.0010;  // m of the tip's middle under the place
 
 }  // namespace
 
@@ -72,7 +72,8 @@ void HookJob::look(const Percept& percept, const HandIntent& intent, HandRandom&
   if (in_step_s_ < kHookLate + kHookLook * skill_.speed_factor) return;
   const bool over = step_ == Step::kLook, under = step_ == Step::kUnder;
   const Vec3 to = over ? over_T(percept) : under ? beside(percept, kOnFoot, 0) : down_T(percept);
-  const bool again = (to - percept.tip_T).norm() > skill_.settle_share * kHookGood && corrections_ < skill_.max_corrections;
+  const bool again =
+      (to - percept.tip_T).norm() > skill_.settle_share * kHookGood && corrections_ < skill_.max_corrections;
   if (again) {
     ++corrections_;
     return go(over ? Step::kReach : under ? Step::kSlide : Step::kAdvance, percept, to, intent, random);

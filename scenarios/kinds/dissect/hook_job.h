@@ -1,6 +1,6 @@
-// How a simulated person works with the hook. At a strand: over its side, look, down beside it, slide the foot under it,
-// look, lift, look, press the pedal until it is seen to part. At a vessel that spurts: over it, look, down onto it, press the
-// pedal until it is seen to be dry, draw back. A strand that is not seen to come along is tried again, lower.
+// How a simulated person works with the hook. At a strand: over its side, look, down beside it, slide the foot under
+// it, look, lift, look, press the pedal until it is seen to part. At a vessel that spurts: over it, look, down onto it,
+// press the pedal until it is seen to be dry, draw back. A strand that is not seen to come along is tried again, lower.
 //
 // Knows nothing but the Percept, and the shape of the hook. Frame T, m. Thread: the hand task's, once a loop period;
 // does not allocate.

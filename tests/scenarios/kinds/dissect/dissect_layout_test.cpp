@@ -65,10 +65,10 @@ TEST(DissectLayout, EveryBoardHasFiveStrandsAcrossTheFootAndThreeVesselsApart) {
       }
       for (int a = kStrands; a < kDissectAims; ++a)
         for (int b = kStrands; b < a; ++b)
-          EXPECT_GE((out.targets[static_cast<std::size_t>(a)].centre_T -
-                     out.targets[static_cast<std::size_t>(b)].centre_T)
-                        .norm(),
-                    exercise.layout.min_spacing_m);
+          EXPECT_GE(
+              (out.targets[static_cast<std::size_t>(a)].centre_T - out.targets[static_cast<std::size_t>(b)].centre_T)
+                  .norm(),
+              exercise.layout.min_spacing_m);
       const std::vector<BleederSetup> bleeders = bleeders_of(exercise, out);
       ASSERT_EQ(bleeders.size(), static_cast<std::size_t>(kSpurters));
       EXPECT_EQ(bleeders.front().place_T, out.targets[kStrands].centre_T);
@@ -98,12 +98,11 @@ TEST(DissectLayout, OtherKindsHaveNoVesselsThatOpen) {
 
 TEST(DissectReader, NamesLineAndColumnOfWhatIsWrong) {
   const std::string text = bleeders_and_hook().text;
-  for (const auto& [from, to, said] :
-       {std::array{"count = 8", "count = 7", "must be 8"},
-        std::array{"near_mm = 2 ", "near_mm = 7 ", "below 'lift_mm'"},
-        std::array{"tissue = \"normal\"", "tissue = \"still\"", "tissue"},
-        std::array{"seal_s = 8", "seal_x = 8", "seal_s"},
-        std::array{"bed_mm = [40, 30]", "bed_mm = [40, 300]", "bed_mm"}}) {
+  for (const auto& [from, to, said] : {std::array{"count = 8", "count = 7", "must be 8"},
+                                       std::array{"near_mm = 2 ", "near_mm = 7 ", "below 'lift_mm'"},
+                                       std::array{"tissue = \"normal\"", "tissue = \"still\"", "tissue"},
+                                       std::array{"seal_s = 8", "seal_x = 8", "seal_s"},
+                                       std::array{"bed_mm = [40, 30]", "bed_mm = [40, 300]", "bed_mm"}}) {
     const std::string message = test::refusal(test::edited(text, from, to));
     EXPECT_EQ(message.rfind("bad.toml:", 0), 0u) << message;
     EXPECT_NE(message.find(said), std::string::npos) << message;
