@@ -5,6 +5,7 @@
 namespace trocar {
 namespace {
 
+constexpr double kBesideVessel = 0.005;                 // m
 constexpr double kLitRing = 0.007, kLitThick = 0.0008;  // m, round the middle of the lit strand
 
 /// A ring round the lit strand, which it passes through, and where the tip shall be lifted to.
@@ -76,7 +77,9 @@ KindPicture dissect_picture() {
           .telling =
               [](const SessionView& view) {
                 const DirectorStatus& status = view.director.status();
-                return status.cue == Cue::kSeal && status.done[kStrands];
+                const StylusState& stylus = view.record.stylus;
+                const bool beside = (stylus.X_TI.p - status.demand.centre_T).norm() < kBesideVessel;
+                return status.cue == Cue::kSeal && status.done[kStrands] && beside && stylus.pedal;
               },
           .add_marks = keep_lit_vessel};
 }

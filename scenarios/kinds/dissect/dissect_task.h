@@ -65,7 +65,7 @@ class DissectTask final : public ExerciseTask {
   int asked_ = 0, errors_ = 0;
   Current untold_;                                        ///< of the lit object
   std::array<double, kDissectAims> near_s_{}, safe_s_{};  ///< of each object
-  bool spurting_ = false, perforated_ = false, hooked_ = false, unsafe_ = false;
+  bool spurting_ = false, perforated_ = false, hooked_ = false, beside_ = false, unsafe_ = false;
   double lit_at_s_ = 0, now_s_ = 0, gap_m_ = 0, cut_m2_ = -1;
   Told told_;
 };
