@@ -20,7 +20,9 @@ namespace {
 constexpr double kStep_s = 0.01;
 constexpr int kPairs = 2;
 
-Exercise shipped() { return find_exercise("E12", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises"); }
+Exercise shipped() {
+  return find_exercise("E12", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded");
+}
 
 /// A told needle, the shaft along y over flat tissue; the exercise has begun.
 struct Bench {
