@@ -149,7 +149,8 @@ void DissectTask::update(const TaskInput& input, EventLog& log) {
 void DissectTask::describe_message(const TissueFrame& frame, DirectorStatus& status) const {
   if (told_.at_s >= 0 && now_s_ - told_.at_s < kDissectToldFor) return say(status, told_.message, told_.hint, true);
   if (!is_strand(asked_)) {
-    if (beside_ && frame.surgery.contact_c > 0) return say(status, "Good - hold", "Keep the pedal down until it is dry.");
+    if (beside_ && frame.surgery.contact_c > 0)
+      return say(status, "Good - hold", "Keep the pedal down until it is dry.");
     return say(status, "Stop the bleeding", "Set the tip on the spurting vessel and press the pedal.");
   }
   if (!hooked_) return say(status, "Hook the lit strand", "Slide the foot of the hook under it from the side.");
