@@ -16,7 +16,7 @@ namespace {
 constexpr double kTop = 0.01;  // m of the plate
 
 Exercise bleeders_and_hook() {
-  return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
+  return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded");
 }
 
 /// A plate with a vertex every 2 mm on its top.

@@ -19,7 +19,9 @@ namespace {
 constexpr double kStep_s = 0.01;
 constexpr double kHigh = 0.007, kLow = 0.004, kOn = 0.0;  // m of the tip off the organ
 
-Exercise shipped() { return find_exercise("E13", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises"); }
+Exercise shipped() {
+  return find_exercise("E13", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded");
+}
 
 /// A told instrument and a told frame; the exercise has begun. Objects lie 12 mm apart along x.
 struct Bench {
