@@ -1,13 +1,17 @@
+#include "scenarios/kinds/kind.h"
+
 #include <algorithm>
 
 #include "scenarios/director/director.h"
+#include "scenarios/files/file_units.h"
+#include "scenarios/files/strict_toml.h"
 #include "scenarios/kinds/camera/camera_kind.h"
 #include "scenarios/kinds/clip/clip_kind.h"
 #include "scenarios/kinds/dissect/dissect_kind.h"
 #include "scenarios/kinds/find/find_kind.h"
 #include "scenarios/kinds/gauze/gauze_kind.h"
 #include "scenarios/kinds/grasp/grasp_kind.h"
-#include "scenarios/kinds/kind.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/needle/needle_kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
 #include "scenarios/kinds/pegs/pegs_kind.h"
@@ -23,6 +27,15 @@ const std::vector<KindDescription>& all_kinds() {
       reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(), pegs_kind(),   wire_kind(),   find_kind(),
       retract_kind(), palpate_kind(), clip_kind(),  gauze_kind(),  needle_kind(), dissect_kind()};
   return kinds;
+}
+
+JudgedForces judge_hard_force(const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
+  return {exercise.hard_force_n, {}};
+}
+
+void read_places(StrictTable& targets, TargetLayout& layout) {
+  layout.radius_m = targets.number("diameter_mm", 1, 50) / 2 * file_units::kMilli;
+  layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * file_units::kDegrees;
 }
 
 const KindDescription& kind_of(const Exercise& exercise) {

@@ -8,6 +8,7 @@
 #include "scenarios/kinds/clip/clip_layout.h"
 #include "scenarios/kinds/clip/clip_rules.h"
 #include "scenarios/kinds/clip/clip_task.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/touch/touch_reader.h"
 
 namespace trocar {
@@ -56,13 +57,6 @@ void read_clip_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& l
   level.own = std::make_shared<const ClipLevel>(own);
 }
 
-std::vector<std::unique_ptr<ExerciseTask>> clip_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                      const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<ClipTask>(exercise, level, board));
-  return tasks;
-}
-
 /// Where a structure was divided, what was left out there is not undone: its clips have been judged.
 void account_aims(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
   std::vector<Event> done = events;
@@ -88,19 +82,12 @@ KindDescription clip_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kGrasper,
           .watched = WatchedForce::kTip,
-          .limits =
-              [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
-                return JudgedForces{exercise.hard_force_n, {}};
-              },
-          .read_targets =
-              [](StrictTable& targets, TargetLayout& layout) {
-                layout.radius_m = targets.number("diameter_mm", 1, 50) / 2 * kMilli;
-                layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * kDegrees;
-              },
+          .limits = judge_hard_force,
+          .read_targets = read_places,
           .read = read_clip,
           .read_level = read_clip_level,
           .lay_out = lay_out_clips,
-          .tasks = clip_tasks,
+          .tasks = one_task<ClipTask>,
           .account = account_aims};
 }
 

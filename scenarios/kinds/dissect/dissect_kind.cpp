@@ -8,6 +8,7 @@
 #include "scenarios/kinds/dissect/dissect_layout.h"
 #include "scenarios/kinds/dissect/dissect_rules.h"
 #include "scenarios/kinds/dissect/dissect_task.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/touch/touch_reader.h"
 
 namespace trocar {
@@ -52,13 +53,6 @@ void read_dissect_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel
   if (exercise.ducts.size() != kStrands) keys.table.fail("name", "the exercise needs five 'ducts': the strands");
 }
 
-std::vector<std::unique_ptr<ExerciseTask>> dissect_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                         const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<DissectTask>(exercise, level, board));
-  return tasks;
-}
-
 }  // namespace
 
 KindDescription dissect_kind() {
@@ -69,19 +63,12 @@ KindDescription dissect_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kProbe,
           .watched = WatchedForce::kTip,
-          .limits =
-              [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
-                return JudgedForces{exercise.hard_force_n, {}};
-              },
-          .read_targets =
-              [](StrictTable& targets, TargetLayout& layout) {
-                layout.radius_m = targets.number("diameter_mm", 1, 50) / 2 * kMilli;
-                layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * kDegrees;
-              },
+          .limits = judge_hard_force,
+          .read_targets = read_places,
           .read = read_dissect,
           .read_level = read_dissect_level,
           .lay_out = lay_out_dissection,
-          .tasks = dissect_tasks,
+          .tasks = one_task<DissectTask>,
           .account = account_held_targets};
 }
 

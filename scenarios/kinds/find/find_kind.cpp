@@ -6,6 +6,7 @@
 #include "scenarios/kinds/find/find_reader.h"
 #include "scenarios/kinds/find/find_rules.h"
 #include "scenarios/kinds/find/find_task.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/touch/touch_reader.h"
 #include "scenarios/scoring/event_types.h"
 
@@ -14,13 +15,6 @@ namespace {
 
 Board lay_out_flap(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
   return lay_out_find(place.organ_T, exercise, level, board);
-}
-
-std::vector<std::unique_ptr<ExerciseTask>> find_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                      const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<FindTask>(exercise, level, board));
-  return tasks;
 }
 
 /// Done is what was held long enough and then told, right or wrong: who guesses has done nothing.
@@ -58,7 +52,7 @@ KindDescription find_kind() {
           .read = read_find,
           .read_level = read_find_level,
           .lay_out = lay_out_flap,
-          .tasks = find_tasks,
+          .tasks = one_task<FindTask>,
           .account = account_pins};
 }
 

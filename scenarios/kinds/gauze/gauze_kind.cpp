@@ -6,18 +6,9 @@
 #include "scenarios/kinds/gauze/gauze_reader.h"
 #include "scenarios/kinds/gauze/gauze_rules.h"
 #include "scenarios/kinds/gauze/gauze_task.h"
+#include "scenarios/kinds/kind_parts.h"
 
 namespace trocar {
-namespace {
-
-std::vector<std::unique_ptr<ExerciseTask>> gauze_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                       const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<GauzeTask>(exercise, level, board));
-  return tasks;
-}
-
-}  // namespace
 
 KindDescription gauze_kind() {
   return {.kind = ExerciseKind::kGauze,
@@ -27,10 +18,7 @@ KindDescription gauze_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kGrasper,
           .watched = WatchedForce::kTip,
-          .limits =
-              [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
-                return JudgedForces{exercise.hard_force_n, {}};
-              },
+          .limits = judge_hard_force,
           .read_targets =
               [](StrictTable& targets, TargetLayout& layout) {
                 layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * file_units::kDegrees;
@@ -38,7 +26,7 @@ KindDescription gauze_kind() {
           .read = read_gauze,
           .read_level = read_gauze_level,
           .lay_out = lay_out_gauze,
-          .tasks = gauze_tasks,
+          .tasks = one_task<GauzeTask>,
           .account = account_held_targets};
 }
 

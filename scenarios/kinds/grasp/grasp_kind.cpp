@@ -6,6 +6,7 @@
 #include "scenarios/kinds/grasp/grasp_layout.h"
 #include "scenarios/kinds/grasp/grasp_reader.h"
 #include "scenarios/kinds/grasp/grasp_task.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/scoring/event_types.h"
 
 namespace trocar {
@@ -22,13 +23,6 @@ JudgedForces grasp_limits(const Exercise& exercise, const ExerciseLevel& level, 
 
 Board lay_out_grasp(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace&) {
   return lay_out_blocks(exercise, level, board);
-}
-
-std::vector<std::unique_ptr<ExerciseTask>> grasp_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                       const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<GraspTask>(exercise, level, board));
-  return tasks;
 }
 
 /// Windows of all blocks; the way to each placed block and on to its ring, in the order of placing. A block that left
@@ -66,7 +60,7 @@ KindDescription grasp_kind() {
           .read = read_grasp,
           .read_level = read_grasp_level,
           .lay_out = lay_out_grasp,
-          .tasks = grasp_tasks,
+          .tasks = one_task<GraspTask>,
           .account = account_blocks};
 }
 

@@ -6,6 +6,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/file_units.h"
 #include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/needle/needle_layout.h"
 #include "scenarios/kinds/needle/needle_rules.h"
 #include "scenarios/kinds/needle/needle_task.h"
@@ -55,13 +56,6 @@ void read_needle_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel&
   level.own = std::make_shared<const NeedleLevel>(own);
 }
 
-std::vector<std::unique_ptr<ExerciseTask>> needle_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                        const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<NeedleTask>(exercise, level, board));
-  return tasks;
-}
-
 /// A pair is one thing asked for.
 void account_pairs(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
   Board pairs = board;
@@ -79,19 +73,12 @@ KindDescription needle_kind() {
           .jaws_hold = false,
           .tool = ToolKind::kGrasper,
           .watched = WatchedForce::kTip,
-          .limits =
-              [](const Exercise& exercise, const ExerciseLevel&, const Board&, int) {
-                return JudgedForces{exercise.hard_force_n, {}};
-              },
-          .read_targets =
-              [](StrictTable& targets, TargetLayout& layout) {
-                layout.radius_m = targets.number("diameter_mm", 1, 50) / 2 * kMilli;
-                layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * kDegrees;
-              },
+          .limits = judge_hard_force,
+          .read_targets = read_places,
           .read = read_needle,
           .read_level = read_needle_level,
           .lay_out = lay_out_needle,
-          .tasks = needle_tasks,
+          .tasks = one_task<NeedleTask>,
           .account = account_pairs};
 }
 

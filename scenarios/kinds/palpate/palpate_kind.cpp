@@ -1,5 +1,6 @@
 #include "scenarios/kinds/palpate/palpate_kind.h"
 
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/palpate/palpate_layout.h"
 #include "scenarios/kinds/palpate/palpate_reader.h"
 #include "scenarios/kinds/palpate/palpate_task.h"
@@ -14,13 +15,6 @@ JudgedForces palpate_limits(const Exercise& exercise, const ExerciseLevel&, cons
 
 Board lay_out_palpate(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
   return lay_out_nodules(place.organ_T, exercise, level, board, place.behind_tip);
-}
-
-std::vector<std::unique_ptr<ExerciseTask>> palpate_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                         const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<PalpateTask>(exercise, level, board));
-  return tasks;
 }
 
 /// Asked for are the nodules, not what lies beside them; done are those that were found. Nobody says where to search,
@@ -49,7 +43,7 @@ KindDescription palpate_kind() {
           .read = read_palpate,
           .read_level = read_palpate_level,
           .lay_out = lay_out_palpate,
-          .tasks = palpate_tasks,
+          .tasks = one_task<PalpateTask>,
           .account = account_nodules};
 }
 

@@ -1,6 +1,7 @@
 #include "scenarios/kinds/pegs/pegs_kind.h"
 
 #include "scenarios/director/scoring_context.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/pegs/peg_task.h"
 #include "scenarios/kinds/pegs/pegs_layout.h"
 #include "scenarios/kinds/pegs/pegs_reader.h"
@@ -16,13 +17,6 @@ JudgedForces pegs_limits(const Exercise& exercise, const ExerciseLevel&, const B
 
 Board lay_out_peg_board(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace&) {
   return lay_out_pegs(exercise, level, board);
-}
-
-std::vector<std::unique_ptr<ExerciseTask>> peg_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                     const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<PegTask>(exercise, level, board));
-  return tasks;
 }
 
 /// The grip wanted in all transfers; the way to the ring of each that was done and on to its peg. A ring that was put
@@ -56,7 +50,7 @@ KindDescription pegs_kind() {
           .read = read_pegs,
           .read_level = read_pegs_level,
           .lay_out = lay_out_peg_board,
-          .tasks = peg_tasks,
+          .tasks = one_task<PegTask>,
           .account = account_transfers};
 }
 

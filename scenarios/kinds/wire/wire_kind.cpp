@@ -3,6 +3,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/file_units.h"
 #include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/wire/ring_task.h"
 #include "scenarios/kinds/wire/wire_layout.h"
 #include "scenarios/kinds/wire/wire_rules.h"
@@ -60,13 +61,6 @@ Board wire_board(const Exercise& exercise, const ExerciseLevel& level, int board
   return lay_out_wire(exercise, level, place.R_TI_rest, board);
 }
 
-std::vector<std::unique_ptr<ExerciseTask>> wire_tasks(const Exercise& exercise, const ExerciseLevel& level,
-                                                      const Board& board) {
-  std::vector<std::unique_ptr<ExerciseTask>> tasks;
-  tasks.push_back(std::make_unique<RingTask>(exercise, level, board));
-  return tasks;
-}
-
 void account_gates(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
   account_held_targets(board, events, context);
   context.ring_on_wire = true;
@@ -86,7 +80,7 @@ KindDescription wire_kind() {
           .read = read_wire,
           .read_level = read_wire_level,
           .lay_out = wire_board,
-          .tasks = wire_tasks,
+          .tasks = one_task<RingTask>,
           .account = account_gates};
 }
 
