@@ -40,7 +40,7 @@ TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
   expect_refusal({"run", "juggling", "--hand", hand, "--db", ":memory:"}, 2,
                  "unknown exercise 'juggling': known are E01 reach-and-orient, E02 surface-touch, E03 limited-grasp");
   expect_refusal({"run", exercise, "--hand", "octopus", "--db", ":memory:"}, 2,
-                 "unknown hand 'octopus': known are clumsy, expert");
+                 "unknown hand 'octopus': known are clumsy, clutch-cheat");
   expect_refusal(
       short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
       "heart-of-gold: neither a file nor an organ that ships (phantom-abdomen, phantom-gallbladder, phantom-liver)");

@@ -77,7 +77,8 @@ int demo_command(const DemoOptions& options, std::ostream& out, std::ostream& er
     replay_as_film(film, find_subject(result.recording_path, {}, err), assets, err);
   }
   print_result(result, out);
-  out << "picture  " << picture.string() << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
+  out << "picture  " << (photographer.picture() ? picture.string() : "none: the attempt did not come half way")
+      << "\nscore    " << score.string() << "\nreport   " << report.string() << '\n';
   return exit_code(result);
 }
 

@@ -113,7 +113,7 @@ TEST(MakeHand, FindsShippedHandsAndFiles) {
     FAIL();
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("known are clumsy, expert"), std::string::npos) << message;
+    EXPECT_NE(message.find("known are clumsy, clutch-cheat"), std::string::npos) << message;
     EXPECT_NE(message.find("did you mean 'expert'?"), std::string::npos) << message;
   }
   EXPECT_THROW(make_hand("expert", 1, kHands / "missing"), InputError);
