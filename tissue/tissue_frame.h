@@ -132,7 +132,7 @@ struct SurfacePlace {
 
 /// A clip that is on a duct or vessel, or a place where that is cut or torn through, or nicked.
 struct DuctMark {
-  enum class Kind : std::uint8_t { kClip, kCut, kTorn, kNick, kSealed } kind = Kind::kClip;
+  enum class Kind : std::uint8_t { kClip, kCut, kTorn, kNick } kind = Kind::kClip;
   std::int32_t duct = 0;    ///< index in the scene
   double arc_m = 0;         ///< along it, from where its content comes; stays the same however it lies
   double share = 1;         ///< of its width that is shut or open
