@@ -21,4 +21,7 @@ JudgedForces judge_hard_force(const Exercise& exercise, const ExerciseLevel&, co
 /// Places on an organ: `diameter_mm`, `max_slope_deg` of [targets].
 void read_places(StrictTable& targets, TargetLayout& layout);
 
+/// `tissue` of an exercise about what an organ does that gives way: one that stands still cannot be chosen.
+void read_giving_tissue(StrictTable& document, Exercise& exercise);
+
 }  // namespace trocar

@@ -38,6 +38,10 @@ void read_places(StrictTable& targets, TargetLayout& layout) {
   layout.max_slope_rad = targets.number("max_slope_deg", 1, 80) * file_units::kDegrees;
 }
 
+void read_giving_tissue(StrictTable& document, Exercise& exercise) {
+  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+}
+
 const KindDescription& kind_of(const Exercise& exercise) {
   return *std::find_if(all_kinds().begin(), all_kinds().end(),
                        [&](const KindDescription& kind) { return kind.kind == exercise.kind; });

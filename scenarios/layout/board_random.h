@@ -16,6 +16,8 @@ class BoardRandom {
   explicit BoardRandom(int board) : generator_(0x9E3779B97F4A7C15ull * (static_cast<std::uint64_t>(board) + 1)) {}
   /// In [0, 1), by an explicit formula.
   double uniform() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }
+  /// In [-most, most).
+  double either_way(double most) { return (2 * uniform() - 1) * most; }
   /// In [0, count).
   std::size_t index(std::size_t count) { return static_cast<std::size_t>(uniform() * static_cast<double>(count)); }
   /// Fisher and Yates.

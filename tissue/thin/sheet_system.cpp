@@ -29,7 +29,6 @@ constexpr double kRimStep = 0.00025;       // m
 constexpr double kRests = 0.0005;          // m/s of its fastest node, below which a sheet in a frame rests
 constexpr double kSpreadStill = 1e-6;      // m
 constexpr double kOnSheet = 0.0005;        // m between a place and the sheet that bears it
-constexpr double kFlattest = 0.25;         // of the area that a triangle must keep when its nodes are moved onto a cut
 constexpr double kNearer = 0.64;           // of the squared distance: by so much another vertex must be nearer
 
 bool carries(const SolvedContact& contact) {

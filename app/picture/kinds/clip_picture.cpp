@@ -55,15 +55,8 @@ void add_places(const SessionView& view, std::vector<SceneObject>& out) {
 }
 
 std::vector<ForceBar> clip_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const DirectorStatus& status = view.director.status();
-  const ClipRules& rules = own_rules<ClipRules>(exercise);
-  ForceBar pull = force_bar("Pull", view.record.stylus.F_I_T.force.norm(), {rules.pull_low_n, rules.pull_high_n},
-                            exercise.hard_force_n);
-  pull.peak_n = status.peak_force_n;
-  pull.hidden = view.scene.level.force_display != "always" && !status.force_shown;
-  pull.hidden_note = hidden_note(view.scene.level.force_display);
-  return {pull};
+  const ClipRules& rules = own_rules<ClipRules>(view.scene.setup.exercise);
+  return tip_bar(view, "Pull", {rules.pull_low_n, rules.pull_high_n});
 }
 
 /// Ducts and the way of the instrument to them.

@@ -31,14 +31,7 @@ void keep_lit_vessel(const SessionView& view, std::vector<TargetMark>& discs) {
 }
 
 std::vector<ForceBar> dissect_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const DirectorStatus& status = view.director.status();
-  ForceBar press =
-      force_bar("Force", view.record.stylus.F_I_T.force.norm(), {0, exercise.soft_force_n}, exercise.hard_force_n);
-  press.peak_n = status.peak_force_n;
-  press.hidden = view.scene.level.force_display != "always" && !status.force_shown;
-  press.hidden_note = hidden_note(view.scene.level.force_display);
-  return {press};
+  return tip_bar(view, "Force", {0, view.scene.setup.exercise.soft_force_n});
 }
 
 Eigen::AlignedBox3d dissect_work(const Scene& scene) {

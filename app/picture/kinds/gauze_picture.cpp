@@ -91,15 +91,8 @@ void add_gauze_objects(const SessionView& view, std::vector<SceneObject>& out) {
 }
 
 std::vector<ForceBar> gauze_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const DirectorStatus& status = view.director.status();
-  const GauzeRules& rules = own_rules<GauzeRules>(exercise);
-  ForceBar press = force_bar("Press", view.record.stylus.F_I_T.force.norm(), {rules.press_low_n, rules.press_high_n},
-                             exercise.hard_force_n);
-  press.peak_n = status.peak_force_n;
-  press.hidden = view.scene.level.force_display != "always" && !status.force_shown;
-  press.hidden_note = hidden_note(view.scene.level.force_display);
-  return {press};
+  const GauzeRules& rules = own_rules<GauzeRules>(view.scene.setup.exercise);
+  return tip_bar(view, "Press", {rules.press_low_n, rules.press_high_n});
 }
 
 Eigen::AlignedBox3d gauze_work(const Scene& scene) {

@@ -47,6 +47,17 @@ std::vector<ForceBar> grip_of_lit_object(const SessionView& view) {
   return {grip};
 }
 
+std::vector<ForceBar> tip_bar(const SessionView& view, const char* label, const WantedForce& band) {
+  const ExerciseLevel& level = view.scene.level;
+  const DirectorStatus& status = view.director.status();
+  const JudgedForces limits = judged_forces(view.scene.setup.exercise, level, view.scene.board, status);
+  ForceBar tip = force_bar(label, view.record.stylus.F_I_T.force.norm(), band, *limits.tip_n);
+  tip.peak_n = status.peak_force_n;
+  tip.hidden = level.force_display != "always" && !status.force_shown;
+  tip.hidden_note = hidden_note(level.force_display);
+  return {tip};
+}
+
 std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip_band) {
   const ExerciseLevel& level = view.scene.level;
   const DirectorStatus& status = view.director.status();

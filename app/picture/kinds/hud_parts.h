@@ -17,6 +17,8 @@ std::string targets_done(const Scene& scene, const DirectorStatus& status);
 /// Percent of the present hold.
 HudRow hold_row(const DirectorStatus& status);
 ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n);
+/// Of the tip, as far as the level shows it, with its peak. @pre the kind judges the force of the tip
+std::vector<ForceBar> tip_bar(const SessionView& view, const char* label, const WantedForce& band);
 /// Of tissue that is held: its pull, and the grip on it.
 std::vector<ForceBar> pull_and_grip(const SessionView& view, const WantedForce& grip);
 /// On the lit object, as far as the level shows it. Where no colour tells the foam, the bar does not either: it then

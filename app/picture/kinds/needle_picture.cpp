@@ -44,14 +44,7 @@ void add_dots(const SessionView& view, std::vector<TargetMark>& out) {
 }
 
 std::vector<ForceBar> needle_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const DirectorStatus& status = view.director.status();
-  ForceBar tip =
-      force_bar("Tip force", view.record.stylus.F_I_T.force.norm(), {0, exercise.soft_force_n}, exercise.hard_force_n);
-  tip.peak_n = status.peak_force_n;
-  tip.hidden = view.scene.level.force_display != "always" && !status.force_shown;
-  tip.hidden_note = hidden_note(view.scene.level.force_display);
-  return {tip};
+  return tip_bar(view, "Tip force", {0, view.scene.setup.exercise.soft_force_n});
 }
 
 /// The dots, and the needle that stands over them.

@@ -30,16 +30,7 @@ void add_palpate_marks(const SessionView& view, std::vector<TargetMark>& out) {
 
 /// Of the tip, with the force that judges well and the limit; without a bar the pinch has none either.
 std::vector<ForceBar> palpate_bars(const SessionView& view) {
-  const Exercise& exercise = view.scene.setup.exercise;
-  const ExerciseLevel& level = view.scene.level;
-  const DirectorStatus& status = view.director.status();
-  const JudgedForces limits = judged_forces(exercise, level, view.scene.board, status);
-  ForceBar tip = force_bar("Tip force", view.record.stylus.F_I_T.force.norm(), {level.band_low_n, level.band_high_n},
-                           *limits.tip_n);
-  tip.peak_n = status.peak_force_n;
-  tip.hidden = level.force_display != "always" && !status.force_shown;
-  tip.hidden_note = hidden_note(level.force_display);
-  return {tip};
+  return tip_bar(view, "Tip force", {view.scene.level.band_low_n, view.scene.level.band_high_n});
 }
 
 std::vector<HudRow> palpate_rows(const Scene& scene, const DirectorStatus& status) {

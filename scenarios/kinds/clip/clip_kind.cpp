@@ -44,7 +44,7 @@ std::shared_ptr<const ClipRules> read_rules(StrictTable table) {
 
 void read_clip(StrictTable& document, Exercise& exercise) {
   // What stands still cannot be clipped.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   exercise.own = read_rules(document.table("clip"));
 }

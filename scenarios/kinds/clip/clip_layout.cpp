@@ -92,11 +92,10 @@ Board lay_out_clips(const Exercise& exercise, const ExerciseLevel& level, int bo
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   const Mat3 R_TI = unrolled(level, place.R_TI_rest, centre->position);
   BoardRandom random(board);
-  const auto either_way = [&](double most) { return (2 * random.uniform() - 1) * most; };
   Board result;
   for (int draw = 0; draw < kClipDraws && result.ducts_T.empty(); ++draw) {
-    const double turn = either_way(rules.turn_rad), mirror = random.uniform() < 0.5 ? 1 : -1;
-    const Vec3 middle(either_way(rules.shift_m), either_way(rules.shift_m), 0);
+    const double turn = random.either_way(rules.turn_rad), mirror = random.uniform() < 0.5 ? 1 : -1;
+    const Vec3 middle(random.either_way(rules.shift_m), random.either_way(rules.shift_m), 0);
     // Its x the hinge, its z back along the shaft: y is mirrored by that.
     const Mat3 R = R_TI * Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Vec3(1, -1, -1).asDiagonal();
     result.ducts_T = laid_paths(exercise, R, mirror, middle, organ);

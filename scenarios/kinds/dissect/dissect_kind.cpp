@@ -44,7 +44,7 @@ void read_dissect(StrictTable& document, Exercise& exercise) {
   if (exercise.layout.count != kDissectAims)
     document.fail("targets", "'count' must be 8: five strands and three vessels");
   // Strands on an organ that stands still cannot be lifted, and nothing bleeds there.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   exercise.own = read_dissect_rules(document.table("dissect"));
 }

@@ -39,7 +39,7 @@ class DissectionPlan {
         organ_(organ),
         axes_(axes),
         random_(random),
-        middle_(either_way(rules_.shift_m), either_way(rules_.shift_m)) {}
+        middle_(random_.either_way(rules_.shift_m), random_.either_way(rules_.shift_m)) {}
 
   /// Adds strands and vessels to the board; false: one finds no place.
   bool fill(Board& board) {
@@ -53,7 +53,6 @@ class DissectionPlan {
   }
 
  private:
-  double either_way(double most) { return (2 * random_.uniform() - 1) * most; }
   Eigen::Vector2d at(double along_m, double across_m) const {
     return middle_ + along_m * axes_.along + across_m * axes_.across;
   }
@@ -72,9 +71,9 @@ class DissectionPlan {
 
   bool add_strand(int slot, Board& board) {
     const double row = slot / kColumns - (kRows - 1) / 2.0, column = slot % kColumns - (kColumns - 1) / 2.0;
-    const Eigen::Vector2d middle = at(row * kRowShare * rules_.bed_along_m + either_way(kScatter),
-                                      column * kColumnShare * rules_.bed_across_m + either_way(kScatter));
-    const Eigen::Vector2d way = Eigen::Rotation2Dd(either_way(rules_.turn_rad)) * axes_.along;
+    const Eigen::Vector2d middle = at(row * kRowShare * rules_.bed_along_m + random_.either_way(kScatter),
+                                      column * kColumnShare * rules_.bed_across_m + random_.either_way(kScatter));
+    const Eigen::Vector2d way = Eigen::Rotation2Dd(random_.either_way(rules_.turn_rad)) * axes_.along;
     std::array<Vec3, 2> ends;
     for (std::size_t end = 0; end < 2; ++end) {
       const auto top = ground(middle + (end == 0 ? -0.5 : 0.5) * rules_.span_m * way);
@@ -101,7 +100,7 @@ class DissectionPlan {
 
   void add_vessel(Board& board) {
     const Eigen::Vector2d drawn =
-        at(either_way(rules_.bed_along_m / 2 - kEdge), either_way(rules_.bed_across_m / 2 - kEdge));
+        at(random_.either_way(rules_.bed_along_m / 2 - kEdge), random_.either_way(rules_.bed_across_m / 2 - kEdge));
     const auto top = ground(drawn);
     if (!top || !reached(*top)) return;
     const bool crowded = std::any_of(board.targets.begin() + kStrands, board.targets.end(), [&](const Target& other) {

@@ -2,6 +2,7 @@
 
 #include "scenarios/files/file_units.h"
 #include "scenarios/kinds/find/find_rules.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/touch/touch_reader.h"
 
 namespace trocar {
@@ -37,7 +38,7 @@ void read_answers(StrictTable table, FindRules& rules) {
 void read_find(StrictTable& document, Exercise& exercise) {
   exercise.counted_hold_s = exercise.hold_s = document.number("hold_s", 0.5, 60);
   // Tissue that stands still has no flap.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   if (!document.has("sheets")) document.fail("sheets", "a 'find' exercise needs 'sheets': the first is the flap");
   FindRules rules;

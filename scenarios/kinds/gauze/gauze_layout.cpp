@@ -47,15 +47,15 @@ Board lay_out_gauze(const Exercise& exercise, const ExerciseLevel& level, int bo
   const SheetFrame frame(plan, organ);
   const double length = plan.along_m.norm();
   BoardRandom random(board);
-  const auto either_way = [&](double most) { return (2 * random.uniform() - 1) * most; };
   GauzeBoard own;
-  own.middle_T = frame.at({length / 2 + either_way(rules.shift_m), plan.across_m / 2 + either_way(rules.shift_m)});
+  own.middle_T =
+      frame.at({length / 2 + random.either_way(rules.shift_m), plan.across_m / 2 + random.either_way(rules.shift_m)});
   own.R_TI_rest = place.R_TI_rest;
   GauzeLine& line = own.line;
   line.long_m = asked.long_m / 2;
   line.across_m = asked.across_m / 2;
   line.turned_rad = std::numbers::pi * random.uniform();
-  line.from_rad = -std::numbers::pi / 2 + either_way(rules.way_in_rad);
+  line.from_rad = -std::numbers::pi / 2 + random.either_way(rules.way_in_rad);
   line.sense = random.uniform() < 0.5 ? 1 : -1;
   const double edge_y = frame.at({length / 2, plan.across_m}).y();
   const CutLine round(line, asked.off_m);

@@ -4,6 +4,7 @@
 
 #include "scenarios/files/file_units.h"
 #include "scenarios/kinds/gauze/gauze_rules.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/touch/touch_reader.h"
 
 namespace trocar {
@@ -31,7 +32,7 @@ GauzeRules read_line(StrictTable table) {
 
 void read_gauze(StrictTable& document, Exercise& exercise) {
   // What stands still cannot be cut.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   if (!document.has("sheets")) document.fail("sheets", "a 'gauze' exercise needs 'sheets': the first is the gauze");
   exercise.own = std::make_shared<const GauzeRules>(read_line(document.table("line")));

@@ -37,7 +37,7 @@ std::shared_ptr<const NeedleRules> read_rules(StrictTable table) {
 
 void read_needle(StrictTable& document, Exercise& exercise) {
   // What stands still takes no needle.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   exercise.own = read_rules(document.table("needle"));
   if (exercise.layout.count < 2 || exercise.layout.count % 2 != 0)

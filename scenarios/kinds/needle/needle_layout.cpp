@@ -89,11 +89,10 @@ Board lay_out_needle(const Exercise& exercise, const ExerciseLevel& level, int b
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   const TargetGround ground{field, exercise.layout, centre->position.z(), place.behind_tip};
   BoardRandom random(board);
-  const auto either_way = [&](double most) { return (2 * random.uniform() - 1) * most; };
   Board result;
   for (int draw = 0; draw < kNeedleDraws && result.targets.empty(); ++draw) {
-    const double turn = either_way(rules.turn_rad);
-    const Vec3 middle(either_way(rules.shift_m), either_way(rules.shift_m), 0);
+    const double turn = random.either_way(rules.turn_rad);
+    const Vec3 middle(random.either_way(rules.shift_m), random.either_way(rules.shift_m), 0);
     Vec3 slit = middle - level.port_m;
     slit.z() = 0;
     slit = Eigen::AngleAxisd(turn, Vec3::UnitZ()) * slit.normalized();

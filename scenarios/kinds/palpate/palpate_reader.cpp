@@ -2,6 +2,7 @@
 
 #include "scenarios/director/director.h"
 #include "scenarios/files/file_units.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/palpate/palpate_rules.h"
 
 namespace trocar {
@@ -49,7 +50,7 @@ void read_nodule_places(StrictTable& table, TargetLayout& layout) {
 
 void read_palpate(StrictTable& document, Exercise& exercise) {
   auto rules = std::make_shared<PalpateRules>();
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_nodules(document.table("nodules"), *rules);
   read_mark(document.table("mark"), *rules);
   read_search(document.table("search"), exercise, *rules);

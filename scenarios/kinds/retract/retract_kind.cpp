@@ -5,6 +5,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/file_units.h"
 #include "scenarios/files/level_keys.h"
+#include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/retract/retract_rules.h"
 #include "scenarios/kinds/retract/retract_task.h"
 #include "scenarios/kinds/touch/disc_layout.h"
@@ -33,7 +34,7 @@ std::shared_ptr<const RetractRules> read_rules(StrictTable table) {
 void read_retract(StrictTable& document, Exercise& exercise) {
   exercise.counted_hold_s = exercise.hold_s = document.number("hold_s", 0.5, 120);
   // Tissue that stands still cannot be lifted.
-  exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
+  read_giving_tissue(document, exercise);
   read_surface(document.table("surface"), exercise);
   exercise.own = read_rules(document.table("retract"));
 }
