@@ -135,11 +135,17 @@ TEST_F(GoldenScreens, RunAsAPersonTakesHold) {
   ASSERT_EQ(model_->begin_attempt(), "");
   loop_->go(ScreenName::kRun);
   width_ = 320, height_ = 180;  // quick frames while the device homes
-  for (int i = 0; i < 4000 && !(model_->running()->ready() && model_->running()->newest().seen); ++i) {
-    frame();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  ASSERT_TRUE(model_->running()->ready());
+  const auto frames_until = [&](const auto& so) {
+    for (int i = 0; i < 4000 && !so(); ++i) {
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return so();
+  };
+  ASSERT_TRUE(frames_until([&] { return model_->running()->ready() && model_->running()->newest().seen; }));
+  // The tip comes in from the port to where it is first held: seen once it rests there, not on its way.
+  const double came_s = model_->running()->newest().t_s;
+  ASSERT_TRUE(frames_until([&] { return model_->running()->newest().t_s > came_s + 2; }));
   model_->running()->pause(true);  // it looks the same however long the picture takes
   width_ = 1280, height_ = 720;
   for (int i = 0; i < 3; ++i) frame();
