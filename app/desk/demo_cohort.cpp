@@ -21,13 +21,14 @@
 #include "trainees/integrity/anchor_file.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/demo_record.h"
 
 namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMark = "demo-cohort";
+constexpr const char* kStories = "demo-cohort";
 constexpr const char* kOrgan = "phantom-liver";
 constexpr int kSpan_days = 63;
 
@@ -168,26 +169,33 @@ void store_all(std::vector<Planned>& planned, Database& database) {
   }
 }
 
-void remove_database(const fs::path& database) {
-  for (const char* end : {"", "-wal", "-shm"}) {
-    std::error_code ignored;
-    fs::remove(database.string() + end, ignored);
-  }
-  std::error_code ignored;
-  fs::remove(anchor_path(database), ignored);
+/// What lies beside a database under its name: each may be there or not.
+std::vector<fs::path> parts_of(const fs::path& database) {
+  std::vector<fs::path> out{database, database.string() + "-wal", database.string() + "-shm", anchor_path(database)};
   for (const char* beside : {".recordings", ".films", ".live"}) {
     fs::path folder = database;
-    fs::remove_all(folder.replace_extension(beside), ignored);
+    out.push_back(folder.replace_extension(beside));
   }
+  std::erase_if(out, [](const fs::path& part) { return !fs::exists(fs::symlink_status(part)); });
   const std::string old = database.filename().string() + ".schema";  // what a migration kept
-  std::vector<fs::path> backups;
-  for (const auto& entry : fs::directory_iterator(fs::absolute(database).parent_path(), ignored))
-    if (entry.path().filename().string().starts_with(old)) backups.push_back(entry.path());
-  for (const fs::path& backup : backups) fs::remove(backup, ignored);
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(database).parent_path(), none))
+    if (entry.path().filename().string().starts_with(old)) out.push_back(entry.path());
+  return out;
 }
 
-/// What the mark says; it is sealed, so that a demo database cannot be taken for another.
-std::string mark_text(const std::vector<Planned>& planned) {
+/// Moves all parts of a database into another folder, which is on the same disk.
+void move_parts(const fs::path& database, const fs::path& folder) {
+  for (const fs::path& part : parts_of(database)) {
+    std::error_code error;
+    fs::rename(part, folder / part.filename(), error);
+    if (error)
+      throw EnvironmentError(part.string() + ": cannot be moved to " + folder.string() + ": " + error.message());
+  }
+}
+
+/// What the curriculum of the demo tells of each.
+std::string stories(const std::vector<Planned>& planned) {
   std::string text = "# Invented trainees: hands that learn, on the simulated plant. Dates are invented.\n";
   for (const DemoPerson& person : demo_people()) text += "[" + person.code + "]\nstory = \"" + person.story + "\"\n";
   return text + "\n[all]\nattempts = " + std::to_string(planned.size()) + "\n";
@@ -196,7 +204,7 @@ std::string mark_text(const std::vector<Planned>& planned) {
 void tell_demo(Database& database, const std::vector<Planned>& planned) {
   const Author author{"", "Demo"};
   CurriculumStore curricula(database);
-  curricula.add(kMark, mark_text(planned), author);
+  curricula.add(kStories, stories(planned), author);
   for (const DemoPerson& person : demo_people()) curricula.join(person.code, person.group, author);
   add_demo_assessments(database, author);
 }
@@ -207,10 +215,9 @@ fs::path demo_database_beside(const fs::path& database) {
   return (database.empty() ? default_database_path() : database).parent_path() / "demo.db";
 }
 
-bool is_demo(Database& database) { return CurriculumStore(database).newest(kMark).has_value(); }
-
 int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets) {
-  if (fs::exists(options.database)) throw InputError(options.database.string() + ": exists already");
+  if (const auto there = parts_of(options.database); !there.empty())
+    throw InputError(there.front().string() + ": exists already");
   const fs::path folder = fs::path(options.database.string() + ".part");
   std::error_code error;
   fs::remove_all(folder, error);
@@ -225,23 +232,34 @@ int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets)
   } const cleared{folder};
   std::vector<Planned> planned = plan(options, folder);
   if (!perform_all(planned, options, assets)) return 0;
-  try {
-    Database database(options.database);
+  const fs::path made = folder / options.database.filename();
+  {
+    Database database(made);
+    mark_demo(database);
     store_all(planned, database);
     tell_demo(database, planned);
-  } catch (...) {
-    remove_database(options.database);
-    throw;
+    mark_demo_whole(database);
   }
+  move_parts(made, fs::absolute(options.database).parent_path());
   return static_cast<int>(planned.size());
 }
 
-void remove_demo_cohort(const fs::path& database) {
+fs::path remove_demo_cohort(const fs::path& database) {
   {
-    Database opened(database, OpenMode::kExisting);
+    const Database opened(database, OpenMode::kExisting);
     if (!is_demo(opened)) throw InputError(database.string() + ": holds no demo cohort; it was left as it is");
+    if (const std::string kept = attempt_not_invented(opened); !kept.empty())
+      throw InputError(database.string() + ": holds attempts that are not invented (" + kept +
+                       "); it was left as it is");
   }
-  remove_database(database);
+  const std::string stem = (database.parent_path() / ("removed-" + database.stem().string())).string();
+  fs::path folder = stem;
+  std::error_code error;
+  for (int number = 2; !fs::create_directory(folder, error) && !error; ++number)
+    folder = stem + "-" + std::to_string(number);
+  if (error) throw EnvironmentError(folder.string() + ": cannot be made: " + error.message());
+  move_parts(database, folder);
+  return folder;
 }
 
 }  // namespace trocar

@@ -2,8 +2,8 @@
 // simulated plant.
 //
 // Real attempts in every way but who made them: recorded, graded, stored and chained. Their dates are invented, spread
-// over nine weeks that end yesterday. They stand in a database of their own, which says so (is_demo); removing the
-// cohort is removing that file.
+// over nine weeks that end yesterday. They stand in a database of their own, which says so since it was made
+// (trainees/records/demo_record.h).
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,6 @@ namespace trocar {
 /// demo.db beside the given database.
 std::filesystem::path demo_database_beside(const std::filesystem::path& database);
 
-/// Whether a database holds invented trainees.
-bool is_demo(Database& database);
-
 struct DemoCohortOptions {
   std::filesystem::path database;
   int jobs = 0;            ///< threads; 0: one a core
@@ -33,7 +30,8 @@ struct DemoCohortOptions {
 /// EnvironmentError.
 int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets);
 
-/// Removes database, anchor and recordings. @throws InputError: that database holds no demo cohort.
-void remove_demo_cohort(const std::filesystem::path& database);
+/// Moves database, anchor, recordings, films and live folder into a new folder beside it; nothing is erased.
+/// @return that folder. @throws InputError: no demo, or an attempt in it is not invented. EnvironmentError.
+std::filesystem::path remove_demo_cohort(const std::filesystem::path& database);
 
 }  // namespace trocar

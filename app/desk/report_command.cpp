@@ -9,12 +9,12 @@
 
 #include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
-#include "app/desk/demo_cohort.h"
 #include "app/desk/desk_sources.h"
 #include "haptics/input_error.h"
 #include "trainees/desk/queries/report_views.h"
 #include "trainees/exchange/export/pending_export.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/demo_record.h"
 
 namespace trocar {
 namespace {

@@ -29,6 +29,7 @@
 #include "trainees/live/live_stations.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/demo_record.h"
 
 namespace trocar {
 namespace {
@@ -146,7 +147,13 @@ std::filesystem::path served_database(const ReviewServeOptions& options, std::os
   if (options.demo) {
     const std::filesystem::path demo = demo_database_beside("");
     if (!std::filesystem::exists(demo)) make_demo(demo, 0, err);
-    return open_database(demo, OpenMode::kExisting, err).file();
+    const Database opened = open_database(demo, OpenMode::kExisting, err);
+    if (!is_demo(opened)) {
+      throw InputError(
+          demo.string() +
+          ": holds no demo cohort that this program made. Move it away, or serve it as a record with --db");
+    }
+    return opened.file();
   }
   Database database = open_database(options.database, OpenMode::kCreate, err);
   if (!AttemptStore(database).latest())
@@ -158,10 +165,13 @@ std::filesystem::path served_database(const ReviewServeOptions& options, std::os
 
 int review_demo(const ReviewDemoOptions& options, std::ostream& out, std::ostream& err) {
   const std::filesystem::path file = options.database.empty() ? demo_database_beside("") : options.database;
-  if (options.remove)
-    remove_demo_cohort(file);
-  else
-    make_demo(file, options.jobs, err);
+  if (options.remove) {
+    const std::filesystem::path moved = remove_demo_cohort(file);
+    err << "The demo lies in this folder now, and nothing needs it: it can be deleted.\n";
+    out << moved.string() << '\n';
+    return 0;
+  }
+  make_demo(file, options.jobs, err);
   out << file.string() << '\n';
   return 0;
 }
@@ -183,8 +193,9 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.program = TROCAR_VERSION;
   std::atomic<bool> gone{false};
   served.sources.remove_demo = [&] {
-    remove_demo_cohort(file);
+    const std::string moved = remove_demo_cohort(file).string();
     gone = true;
+    return moved;
   };
   if (keeper) served.sources.central = [&] { return keeper->status(); };
   served.sources.stations = [file] { return look_at_stations(file); };

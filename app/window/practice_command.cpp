@@ -17,6 +17,7 @@
 #include "app/window/glfw/window.h"
 #include "app/window/practice/practice_loop.h"
 #include "app/window/practice_pictures.h"
+#include "trainees/records/demo_record.h"
 #include "trainees/records/replica_facts.h"
 
 namespace trocar {
@@ -108,7 +109,11 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   InterruptWatch interrupt;  // before the model starts a thread: it must inherit what is blocked
   PracticeModel model(options.model, find_assets());
   // Told now, not after the first exercise.
-  if (model.database() != ":memory:") require_no_replica(Database(model.database(), OpenMode::kExisting));
+  if (model.database() != ":memory:") {
+    const Database database(model.database(), OpenMode::kExisting);
+    require_no_replica(database);
+    require_no_demo(database, "no attempt of anybody is kept there. Give another with --db FILE");
+  }
   run_window(options, model, interrupt, begin, err);
   return 0;
 }

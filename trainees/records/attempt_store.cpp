@@ -10,6 +10,7 @@
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_rows.h"
+#include "trainees/records/demo_record.h"
 #include "trainees/records/process_identity.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/records/trainee_store.h"
@@ -219,6 +220,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.started_utc = start.started_utc.empty() ? utc_now() : start.started_utc;
   AnchoredTransaction transaction(*database_);
   require_no_replica(connection);
+  require_no_demo(*database_, "no attempt of anybody is kept there. Give another with --db FILE");
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
   if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);
   insert_attempt(connection, start, trainee, stored_recording_path(database_->file(), id.recording), id);

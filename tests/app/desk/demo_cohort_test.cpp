@@ -3,16 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
 #include "app/desk/demo_people.h"
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
+#include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/demo_record.h"
 
 namespace trocar::demo_cohort_test {
 namespace {
@@ -25,6 +28,12 @@ int make_short(const fs::path& database) {
   options.database = database;
   options.least_attempts = 1;
   return make_demo_cohort(options, find_assets());
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> out;
+  for (const auto& entry : fs::directory_iterator(folder)) out.insert(entry.path().filename());
+  return out;
 }
 
 TEST(DemoCohort, IsEightPeopleAndAHundredAttempts) {
@@ -65,19 +74,22 @@ TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
   ASSERT_EQ(AssessmentStore(database).notes_of("demo-chen").size(), 1u);
 }
 
-TEST(DemoCohort, ARealDatabaseIsNoneAndIsNeverRemoved) {
+TEST(DemoCohort, ARealDatabaseIsNoneWhateverIsWrittenIntoIt) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "trocar.db";
   {
     Database database(file);
+    CurriculumStore(database).add("demo-cohort", "[all]\nattempts = 1\n", {"", "Ines"});
     EXPECT_FALSE(is_demo(database));
+    EXPECT_THROW(mark_demo(database), InputError);
+    EXPECT_NO_THROW(require_no_demo(database, "nothing"));
   }
   EXPECT_THROW(remove_demo_cohort(file), InputError);
   EXPECT_TRUE(fs::exists(file));
   EXPECT_THROW(make_short(file), InputError);
 }
 
-TEST(DemoCohort, StoppedOrRemovedItLeavesNothing) {
+TEST(DemoCohort, StoppedItLeavesNothingAndRemovedItLiesInAFolderOfItsOwn) {
   const test::TemporaryFolder folder;
   DemoCohortOptions options;
   options.database = folder.path() / "demo.db";
@@ -88,8 +100,37 @@ TEST(DemoCohort, StoppedOrRemovedItLeavesNothing) {
   options.going = {};
   options.least_attempts = 1;
   ASSERT_EQ(make_demo_cohort(options, find_assets()), 8);
-  remove_demo_cohort(options.database);
-  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_EQ(remove_demo_cohort(options.database), folder.path() / "removed-demo");
+  EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"removed-demo"});
+  const fs::path moved = folder.path() / "removed-demo" / "demo.db";
+  {
+    Database database(moved, OpenMode::kExisting);
+    EXPECT_EQ(database.check(), std::vector<std::string>{});
+    EXPECT_EQ(AttemptStore(database).check_recordings(), std::vector<std::string>{});
+  }
+  fs::copy(folder.path() / "removed-demo", folder.path(), fs::copy_options::recursive);
+  EXPECT_EQ(remove_demo_cohort(options.database), folder.path() / "removed-demo-2");
+}
+
+TEST(DemoCohort, WithOneAttemptThatIsNotInventedItStays) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "demo.db";
+  std::string real;
+  {
+    Database database(file);
+    mark_demo(database);  // never whole: as if a person had practised while it was made
+    real = store_attempt(database, sample_start(), sample_result()).uuid;
+  }
+  EXPECT_NE(message_of<InputError>([&] { remove_demo_cohort(file); }).find(real), std::string::npos);
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(DemoCohort, AFolderOfRecordingsThatAnotherDatabaseLeftIsNotMixedIn) {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder.path() / "demo.recordings");
+  std::ofstream(folder.path() / "demo.recordings" / "old.trec") << "kept";
+  EXPECT_THROW(make_short(folder.path() / "demo.db"), InputError);
+  EXPECT_TRUE(fs::exists(folder.path() / "demo.recordings" / "old.trec"));
 }
 
 }  // namespace

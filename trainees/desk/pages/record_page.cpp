@@ -172,25 +172,27 @@ std::string retention_page(const RetentionView& view, Frame frame) {
 
 std::string demo_question_page(Frame frame) {
   frame.title = "Remove the demo";
-  return document(frame,
-                  "<section class=\"card\"><h1>Remove the demo?</h1><p>The eight invented trainees go, with their "
-                  "attempts and recordings, and "
-                  "what was written about them. No other record is touched. The desk ends then; <code>trocar review "
-                  "serve --demo</code> "
-                  "makes the cohort anew.</p>" +
-                      why_refused(frame, "demo") + form_begin("/demo/remove", frame) +
-                      "<p><button class=\"danger\">Remove the demo</button> " + link_html("/", "Keep it") +
-                      "</p></form></section>");
+  return document(
+      frame,
+      "<section class=\"card\"><h1>Remove the demo?</h1><p>The eight invented trainees, their attempts and "
+      "recordings, and what was written about them, are moved into a folder of their own; nothing is erased, "
+      "and no other record is touched. The desk ends then; <code>trocar review serve --demo</code> makes "
+      "the cohort anew.</p>" +
+          why_refused(frame, "demo") + form_begin("/demo/remove", frame) +
+          "<p><button class=\"danger\">Remove the demo</button> " + link_html("/", "Keep it") +
+          "</p></form></section>");
 }
 
-std::string demo_gone_page(Frame frame) {
+std::string demo_gone_page(Frame frame, const std::string& moved) {
   frame.title = "The demo is removed";
   frame.demo = false;
   frame.ended = true;
   return document(frame,
                   "<section class=\"card\"><h1>The demo is removed</h1><p>The invented trainees, their attempts and "
-                  "recordings are gone, and this "
-                  "desk has ended. Your own desk opens with <code>trocar review serve</code>.</p></section>");
+                  "recordings lie in <code>" +
+                      escape_html(moved) +
+                      "</code> now, which can be deleted. This desk has ended; your own opens with <code>trocar review "
+                      "serve</code>.</p></section>");
 }
 
 }  // namespace trocar::review

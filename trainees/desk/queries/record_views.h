@@ -75,8 +75,8 @@ std::string accounts_page(const AccountsView& view, Frame frame);
 std::string record_page(const RecordView& view, Frame frame);
 std::string audit_page(const AuditView& view, Frame frame);
 std::string retention_page(const RetentionView& view, Frame frame);
-/// Asks whether the invented cohort shall go; and what is said when it has gone.
+/// Asks whether the invented cohort shall go; and what is said when it has gone, and where to.
 std::string demo_question_page(Frame frame);
-std::string demo_gone_page(Frame frame);
+std::string demo_gone_page(Frame frame, const std::string& moved);
 
 }  // namespace trocar::review

@@ -116,12 +116,12 @@ Response remove_demo(const Request& request, Desk& desk) {
   Frame frame = frame_of(request, desk);
   if (!frame.demo_goes) throw InputError("this desk shows no demo cohort that could be removed");
   try {
-    desk.sources.remove_demo();
+    const std::string moved = desk.sources.remove_demo();
+    return html(demo_gone_page(frame, moved));
   } catch (const InputError& error) {
     frame.refused = {"demo", error.what(), {}};
     return html(demo_question_page(frame), 400);
   }
-  return html(demo_gone_page(frame));
 }
 
 using AdminPage = Response (*)(const Request&, Desk&);

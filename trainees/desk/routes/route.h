@@ -99,7 +99,7 @@ struct DeskSources {
   std::function<LiveStations()> stations = {};
   /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no
   /// such cohort.
-  std::function<void()> remove_demo = {};
+  std::function<std::string()> remove_demo = {};
   std::string program = {};  ///< its version
 };
 

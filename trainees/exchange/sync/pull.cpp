@@ -2,6 +2,7 @@
 // knows.
 #include "trainees/exchange/sync/exchange.h"
 #include "trainees/exchange/sync/fetch.h"
+#include "trainees/records/demo_record.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -44,6 +45,7 @@ Wanted wanted_of(const CarriedTable& table, const KnownHere& known) {
 }  // namespace
 
 PullReport pull_from_central(Database& database, const CentralAddress& central, bool apply_erasures) {
+  require_no_demo(database, "nothing is synchronised to it");
   CentralLink link(central);
   PullReport report;
   link.begin_reading();

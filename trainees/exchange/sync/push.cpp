@@ -8,6 +8,7 @@
 #include "trainees/exchange/sync/station.h"
 #include "trainees/exchange/sync/synchronise.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/records/demo_record.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -238,6 +239,7 @@ void send_batches(Push& push, Database& database, const std::string& central, co
 }  // namespace
 
 PushReport push_over(CentralLink& link, Database& database, const PushOptions& options) {
+  require_no_demo(database, "nothing is synchronised from it");
   if (options.with_identity && is_replica(database.connection())) {
     throw InputError(
         "this database is a copy for a desk: it knows people by what their stations pushed; identities go from there");

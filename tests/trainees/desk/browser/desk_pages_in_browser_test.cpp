@@ -108,7 +108,10 @@ TEST_F(DeskPages, TheDemoGoesAtTheDeskItself) {
   review::DeskServerOptions given = options();
   given.demo = true;
   int removed = 0;
-  given.sources.remove_demo = [&removed] { ++removed; };
+  given.sources.remove_demo = [&removed] {
+    ++removed;
+    return "/x/removed-demo";
+  };
   serve(std::move(given));
   look({.width = 390, .height = 844, .phone = true});
   browser_->open(at("/"));

@@ -181,16 +181,20 @@ TEST_F(DeskAdmin, TheDemoGoesAfterAQuestionAndByAdministratorsAlone) {
   int removed = 0;
   desk_.demo = true;
   EXPECT_EQ(page("/", local()).find("/demo/remove"), std::string::npos) << "no way to remove it, no button";
-  desk_.sources.remove_demo = [&removed] { ++removed; };
+  desk_.sources.remove_demo = [&removed] {
+    ++removed;
+    return "/x/removed-demo";
+  };
   EXPECT_NE(page("/", local()).find("href=\"/demo/remove\""), std::string::npos);
   EXPECT_NE(page("/demo/remove", local()).find("Remove the demo?"), std::string::npos);
   EXPECT_EQ(removed, 0);
   const Answer gone = ask("POST", "/demo/remove", local());
   EXPECT_EQ(gone.response.status, 200);
   EXPECT_NE(gone.response.body.find("The demo is removed"), std::string::npos);
+  EXPECT_NE(gone.response.body.find("/x/removed-demo"), std::string::npos);
   EXPECT_EQ(gone.response.body.find("<nav"), std::string::npos) << "there is nowhere left to go";
   EXPECT_EQ(removed, 1);
-  desk_.sources.remove_demo = [] { throw InputError("/home/x/demo.db: holds no demo cohort"); };
+  desk_.sources.remove_demo = []() -> std::string { throw InputError("/home/x/demo.db: holds no demo cohort"); };
   EXPECT_NE(ask("POST", "/demo/remove", local()).response.body.find("Demo.db: holds no demo cohort."),
             std::string::npos);
   add_accounts();

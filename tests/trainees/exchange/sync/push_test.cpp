@@ -9,6 +9,7 @@
 #include "trainees/records/accounts.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/demo_record.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::push_test {
@@ -49,6 +50,14 @@ TEST_F(Stations, ThreeMeetInOnePlaceAndPushingAgainChangesNothing) {
     EXPECT_TRUE(push(database).added.empty());
   }
   EXPECT_EQ(everything(), before);
+}
+
+TEST_F(Stations, ADemoIsKeptOutOfTheCentre) {
+  Database demo = station("demo");
+  mark_demo(demo);
+  mark_demo_whole(demo);
+  EXPECT_THROW(push(demo), InputError);
+  EXPECT_THROW(pull_from_central(demo, central_, false), InputError);
 }
 
 TEST_F(Stations, NumbersAndTextsArriveBitForBit) {
