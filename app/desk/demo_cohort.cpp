@@ -19,6 +19,7 @@
 #include "scenarios/hands/make_hand.h"
 #include "scenarios/layout/board_numbers.h"
 #include "trainees/integrity/anchor_file.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/demo_record.h"
@@ -124,15 +125,15 @@ bool perform_all(std::vector<Planned>& planned, const DemoCohortOptions& options
     for (std::size_t i = next++; i < planned.size() && !stopped; i = next++) {
       try {
         perform(planned[i], assets);
-      } catch (...) {
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (options.going && !options.going(done, static_cast<int>(planned.size()))) stopped = true;
+      } catch (...) {  // Ctrl-C among them
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
         stopped = true;
         return;
       }
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (options.going && !options.going(done, static_cast<int>(planned.size()))) stopped = true;
     }
   };
   const unsigned wanted =
@@ -171,7 +172,8 @@ void store_all(std::vector<Planned>& planned, Database& database) {
 
 /// What lies beside a database under its name: each may be there or not.
 std::vector<fs::path> parts_of(const fs::path& database) {
-  std::vector<fs::path> out{database, database.string() + "-wal", database.string() + "-shm", anchor_path(database)};
+  std::vector<fs::path> out{database, database.string() + "-wal", database.string() + "-shm", anchor_path(database),
+                            key_path(database)};
   for (const char* beside : {".recordings", ".films", ".live"}) {
     fs::path folder = database;
     out.push_back(folder.replace_extension(beside));

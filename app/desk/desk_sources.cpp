@@ -29,7 +29,7 @@ std::string words_of_metric(const std::string& metric) {
 
 std::function<Database()> desk_opener(const std::filesystem::path& file) {
   constexpr int kBusy_ms = 5000;
-  return [file] { return Database(file, OpenMode::kExisting, kBusy_ms, regrade_file); };
+  return [file] { return Database(file, OpenMode::kExisting, kBusy_ms); };
 }
 
 std::unique_ptr<DeskPictures> desk_pictures(const std::filesystem::path& file, std::ostream& err) {

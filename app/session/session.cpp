@@ -330,11 +330,11 @@ std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const As
   const std::string header = scene_json(scene);
   if (file.empty()) {
     MemorySink memory;
-    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz);
+    RecordingWriter writer(memory, header, scene.loop.daq.rate_hz, hooks.seal);
     SessionOutcome outcome = run_session(scene, assets, hooks, writer);
     return {std::move(outcome), parse_recording(memory.bytes(), "recording in memory")};
   }
-  RecordingWriter writer(file, header, scene.loop.daq.rate_hz);
+  RecordingWriter writer(file, header, scene.loop.daq.rate_hz, hooks.seal);
   SessionOutcome outcome = run_session(scene, assets, hooks, writer);
   return {std::move(outcome), read_recording(file)};
 }

@@ -62,6 +62,7 @@ struct SessionHooks {
   std::function<bool()> board_answers =
       {};                        ///< live: while it says no, everything stands still; needs `pause`, and no exam
   KeyframeRule keyframes = {};   ///< for playback
+  RecordingSeal seal = {};       ///< of record_session(): whose the recording is
   PauseSwitch* pause = nullptr;  ///< live: lets everything stand still, the simulated device too
 };
 

@@ -1,6 +1,8 @@
 #include "scenarios/hands/make_hand.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
@@ -20,8 +22,15 @@ std::unique_ptr<Hand> make_hand(const HandScript& script, std::uint64_t seed) {
 
 namespace {
 
+/// What the record calls a person's input, and an invented attempt: no script is ever taken for one.
+constexpr std::array<std::string_view, 7> kNoScripts{"auto",       "mouse",  "keyboard", "gamepad",
+                                                     "spacemouse", "device", "invented"};
+
 std::filesystem::path hand_file(const std::string& name_or_script, const std::filesystem::path& hands_dir) {
   if (name_or_script.ends_with(".toml")) return name_or_script;
+  if (std::find(kNoScripts.begin(), kNoScripts.end(), name_or_script) != kNoScripts.end())
+    throw InputError("hand '" + name_or_script +
+                     "': is how the record names a person's input, so no script is called so");
   const std::vector<std::string> known = list_hands(hands_dir);
   if (std::find(known.begin(), known.end(), name_or_script) == known.end()) {
     const std::string near = nearest_word(name_or_script, known);

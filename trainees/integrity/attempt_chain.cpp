@@ -84,7 +84,9 @@ Link link_of(const sql::Statement& row) {
 }
 
 Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) {
-  Link link{attempt, 1, kHashVersion, "", status_name(status)};
+  sql::Statement version(connection, "SELECT hash_version FROM attempt WHERE id = ?");
+  version.bind(attempt).step();
+  Link link{attempt, 1, version.integer(0), "", status_name(status)};
   sql::Statement last(connection,
                       "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
                       " ORDER BY chain_position DESC LIMIT 1");

@@ -21,7 +21,8 @@ struct sqlite3;
 namespace trocar {
 
 /// Content that row_hash covers in attempts begun by this program.
-inline constexpr int kHashVersion = 1;
+inline constexpr int kHashVersion = 2;
+inline constexpr int kFirstBoundVersion = 2;  ///< from here on an attempt's recording says whose it is
 
 /// Ends a running attempt whose rows are all written: sets its status and its place in the chain, which freezes it,
 /// and in the audit trail. Call inside a transaction.

@@ -1,6 +1,7 @@
 #include "trainees/integrity/audit.h"
 
 #include "haptics/digest/digest.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -36,6 +37,26 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems) {
   }
 }
 
+/// Each link holds all before it, so the last of a key's entries proves them all; none in between is without.
+void check_signatures(sqlite3* connection, std::vector<std::string>& problems) {
+  const std::vector<AnnouncedKey> keys = announced_keys(connection);
+  const std::int64_t head = audit_head(connection).position;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::int64_t last = i + 1 < keys.size() ? keys[i + 1].position - 1 : head;
+    sql::Statement bare(connection,
+                        "SELECT position FROM audit WHERE position BETWEEN ? AND ? AND signature = '' LIMIT 1");
+    if (bare.bind(keys[i].position).bind(last).step())
+      problems.push_back("entry " + std::to_string(bare.integer(0)) + " is not signed with the station's key");
+    sql::Statement row(connection, "SELECT row_hash, signature FROM audit WHERE position = ?");
+    if (row.bind(last).step() && !row.text(1).empty() &&
+        !signature_holds(keys[i].public_key, head_text(row.text(0)), row.text(1)))
+      problems.push_back("entry " + std::to_string(last) + " was not signed with the station's key");
+  }
+  const auto here = station_key(connection);
+  if (here && !keys.empty() && here->public_key() != keys.back().public_key)
+    problems.push_back("the key beside the database is not the one that the trail names last");
+}
+
 void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
   sql::Statement gone(connection,
                       "SELECT subject, utc FROM audit u WHERE action IN (?, ?) AND NOT EXISTS"
@@ -58,13 +79,17 @@ std::string field_at(sqlite3* connection, const char* query, std::int64_t positi
 
 }  // namespace
 
+std::string head_text(const std::string& row_hash) { return "trocar-audit-head-1\n" + row_hash; }
+
 void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
                   const std::string& actor) {
   const AuditHead head = audit_head(connection);
   const std::string utc = utc_now();
-  sql::Statement insert(connection, "INSERT INTO audit VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  sql::Statement insert(connection, "INSERT INTO audit VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const std::string hash = hash_of(head.row_hash, head.position + 1, utc, actor, action, subject, detail);
+  const auto key = station_key(connection);
   insert.bind(head.position + 1).bind(utc).bind(actor).bind(action).bind(subject).bind(detail).bind(head.row_hash);
-  insert.bind(hash_of(head.row_hash, head.position + 1, utc, actor, action, subject, detail)).run();
+  insert.bind(hash).bind(key ? key->sign(head_text(hash)) : "").run();
 }
 
 AuditHead audit_head(sqlite3* connection) {
@@ -84,6 +109,7 @@ std::string audit_action(sqlite3* connection, std::int64_t position) {
 std::vector<std::string> check_audit(sqlite3* connection) {
   std::vector<std::string> problems;
   check_links(connection, problems);
+  check_signatures(connection, problems);
   check_attempts(connection, problems);
   // AUTOINCREMENT counts every attempt that was ever begun, also one that never finished.
   if (sql::query_integer(connection,

@@ -3,7 +3,8 @@
 // row_hash_n = SHA-256("trocar-audit-1\n" + row_hash_(n-1) + "\n" + n + "\n" + utc + "\n" + actor + "\n" + action +
 // "\n" + subject + "\n" + detail); n counts from 1, row_hash_0 is empty. Every finished attempt has an entry with its
 // row_hash, so that the trail knows of attempts that the table no longer holds. What the trail itself has lost at its
-// end only the anchor file knows (anchor_file.h).
+// end only the anchor file knows (anchor_file.h). Each entry carries the signature of head_text(row_hash) by the
+// station's key (station_key.h), "" where there is none.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,9 @@ void append_audit(sqlite3* connection, const std::string& action, const std::str
                   const std::string& actor = "trocar");
 
 AuditHead audit_head(sqlite3* connection);
+
+/// What the station's key signs of an entry.
+std::string head_text(const std::string& row_hash);
 
 /// row_hash of the entry, "" when there is none; its action.
 std::string audit_hash(sqlite3* connection, std::int64_t position);

@@ -36,25 +36,14 @@ std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
 }
 
 /// Nothing but what is left of an attempt that was cut off.
-AttemptResult aborted_result(const fs::path& recording, const std::string& reason) {
+AttemptResult aborted_result(const fs::path& recording) {
   AttemptResult result;
   result.grade.status = AttemptStatus::kAborted;
   result.grade.grade = "not graded";
-  result.integrity = reason;
+  result.integrity = "its program ended before the attempt was stored";
   result.cut_off = true;
   if (!recording.empty()) result.recording_sha256 = digest::of_readable_file(recording);
   return result;
-}
-
-AttemptResult recovered_result(const fs::path& recording, const Regrade& regrade) {
-  try {
-    if (regrade && !recording.empty()) {
-      if (auto graded = regrade(recording)) return std::move(*graded);
-    }
-    return aborted_result(recording, "its program ended before the attempt did");
-  } catch (const InputError& error) {
-    return aborted_result(recording, std::string("its program ended; its recording cannot be graded: ") + error.what());
-  }
 }
 
 /// @returns false when another program has ended the attempt in the meantime.
@@ -72,18 +61,16 @@ bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const Attem
 
 }  // namespace
 
-std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database,
-                                                    const Regrade& regrade) {
+std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database) {
   std::vector<RecoveredAttempt> recovered;
   for (const RunningAttempt& attempt : running_attempts(connection)) {
     if (process_lives(attempt.owner)) continue;
     const fs::path recording = located_recording(database, attempt.stored_recording);
     std::error_code error;
     const bool left = !recording.empty() && fs::is_regular_file(recording, error);
-    const AttemptResult result = recovered_result(left ? recording : fs::path(), regrade);
-    if (!end_attempt(connection, attempt, result, left ? attempt.stored_recording : "")) continue;
-    recovered.push_back(
-        {attempt.uuid, attempt.trainee, left ? recording : fs::path(), result.grade.status, result.grade.score});
+    const fs::path kept = left ? recording : fs::path();
+    if (!end_attempt(connection, attempt, aborted_result(kept), left ? attempt.stored_recording : "")) continue;
+    recovered.push_back({attempt.uuid, attempt.trainee, kept});
   }
   return recovered;
 }

@@ -1,17 +1,13 @@
 // Attempts that died with their process: found when the database is opened and ended, their recording kept.
 //
-// An attempt whose recording is whole was over before its program died, or before its result could be stored (a full
-// disk, a database held too long): it is graded again from the recording and stored as what it was. Any other is ended
-// as "aborted". Internal to trainees/ but for RecoveredAttempt and Regrade, which the program knows.
+// Nothing is graded then, not even from a recording that is whole: no program has seen that attempt to its end. What
+// the recording gives can be looked at, and a person can decide on the attempt (docs/data_store.md). Internal to
+// trainees/ but for RecoveredAttempt, which the program knows.
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include "scenarios/scoring/attempt_result.h"
 
 struct sqlite3;
 
@@ -20,17 +16,11 @@ namespace trocar {
 struct RecoveredAttempt {
   std::string uuid, trainee;
   std::filesystem::path recording;  ///< readable to its last whole chunk; empty when there is none
-  AttemptStatus status = AttemptStatus::kAborted;
-  std::optional<double> score;
 };
 
-/// The result that a recording holds; nothing when it is cut off. May throw InputError for a damaged one.
-using Regrade = std::function<std::optional<AttemptResult>(const std::filesystem::path& recording)>;
-
 /// Ends every attempt whose process no longer lives. Attempts of living processes are not touched.
-/// @param database its file, empty when in memory. @param regrade empty: all are aborted.
-std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const std::filesystem::path& database,
-                                                    const Regrade& regrade);
+/// @param database its file, empty when in memory.
+std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const std::filesystem::path& database);
 
 /// How a recording is named in the database: relative to the database's folder when it lies inside, so that both can
 /// move together; absolute otherwise.

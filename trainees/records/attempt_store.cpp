@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/integrity/kept_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_rows.h"
 #include "trainees/records/demo_record.h"
@@ -198,6 +201,18 @@ void check_name(std::string_view name) {
   }
 }
 
+/// What a recording says of the attempt that it is of.
+nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
+  static const std::string kQuery = "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
+                                    ", exercise_id, ruleset_sha256, level, seed, board, hand FROM attempt a"
+                                    " JOIN trainee t ON t.id = a.trainee_id WHERE a.uuid = ?";
+  sql::Statement row(connection, kQuery);
+  if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
+  return {{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
+          {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
+          {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
+}
+
 /// An exam board is met once, however the first sitting ended. Seeds do not tell: two of them can draw one board.
 void refuse_second_exam(sqlite3* connection, const AttemptStart& start, std::int64_t trainee) {
   sql::Statement taken(connection,
@@ -227,6 +242,8 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");
   row.bind(id.uuid).step();
   id.row = row.integer(0);
+  id.key = station_key(database_->file());
+  id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump();
   transaction.commit();
   return id;
 }
@@ -318,8 +335,33 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
   return text;
 }
 
+std::string AttemptStore::recording_problem(const std::string& attempt_uuid, const std::string& identity,
+                                            const std::string& signed_by) const {
+  sqlite3* connection = database_->connection();
+  sql::Statement version(connection, "SELECT hash_version FROM attempt WHERE uuid = ?");
+  if (!version.bind(attempt_uuid).step()) throw InputError("attempt " + attempt_uuid + ": not in this database");
+  if (version.integer(0) < kFirstBoundVersion || is_demo(*database_)) return "";
+  const auto said = nlohmann::ordered_json::parse(identity, nullptr, false);
+  if (!said.is_object()) return "does not say whose it is";
+  const auto wanted = identity_of(connection, attempt_uuid, said.value("key", ""));
+  for (const auto& [name, value] : wanted.items())
+    if (said.value(name, nlohmann::ordered_json()) != value)
+      return "is of another attempt: " + name + " " + said.value(name, nlohmann::ordered_json()).dump() +
+             " instead of " + value.dump();
+  const auto keys = announced_keys(connection);
+  const bool known =
+      std::any_of(keys.begin(), keys.end(), [&](const AnnouncedKey& key) { return key.public_key == signed_by; });
+  if (keys.empty() || known) return "";
+  return signed_by.empty() ? "is not signed with the station's key" : "is signed with another station's key";
+}
+
 std::vector<std::string> AttemptStore::check_recordings() const {
   std::vector<std::string> problems;
+  sql::Statement twice(database_->connection(),
+                       "SELECT min(uuid), max(uuid) FROM attempt WHERE recording_sha256 <> '' GROUP BY recording_sha256"
+                       " HAVING count(*) > 1 ORDER BY 1");
+  while (twice.step())
+    problems.push_back("one recording counts for two attempts: " + twice.text(0) + " and " + twice.text(1));
   sql::Statement rows(
       database_->connection(),
       "SELECT uuid, recording_path, recording_sha256, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "haptics/digest/signature.h"
 #include "scenarios/scoring/attempt_result.h"
 #include "trainees/store/database.h"
 
@@ -51,6 +52,10 @@ struct AttemptId {
   std::filesystem::path recording;  ///< file to record to, empty when none
   std::string rubric_sha256;        ///< of the exercise's bytes
   std::string started_utc;
+  /// What binds the recording to it (app/session/recording/seal.h): JSON of the UUIDs of attempt and trainee, exercise,
+  /// ruleset, level, seed, board, hand and the station's public key; and that key, where there is one.
+  std::string identity;
+  std::optional<SigningKey> key = {};
 };
 
 /// One line of a list.
@@ -112,6 +117,11 @@ class AttemptStore {
   /// Exercise file as it stood for an attempt, by at least 4 digits of its sha256. @throws InputError: unknown,
   /// several.
   std::string exercise_text(const std::string& rubric_sha256) const;
+
+  /// Why a recording is not that of the attempt, "" when it is: what it says of itself, and by which key that is
+  /// signed. Nothing is asked of those that began before recordings named their attempt, nor of a demo's.
+  std::string recording_problem(const std::string& attempt_uuid, const std::string& identity,
+                                const std::string& signed_by) const;
 
   /// Recordings that finished attempts name but that are missing or changed, and recordings in the database's folder
   /// that no attempt names (an attempt was removed) or that an erasure left, one line each.

@@ -14,6 +14,7 @@
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/cap_rows.h"
 #include "trainees/store/sqlite_handle.h"
 #include "trainees/store/statement_cache.h"
@@ -93,8 +94,7 @@ std::optional<int> schema_of_file(const fs::path& file) {
 
 void Database::Close::operator()(sqlite3* connection) const { sql::close_connection(connection); }
 
-Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, const Regrade& regrade,
-                   std::span<const Migration> migrations)
+Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, std::span<const Migration> migrations)
     : migrations_(migrations) {
   if (file != ":memory:") file_ = fs::absolute(file).lexically_normal();
   open(mode, busy_timeout_ms);
@@ -113,7 +113,7 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, con
   sql::keep_statements(connection_.get());
   add_cap_sentence(connection_.get());
   anchor_beginning();
-  recovered_ = recover_dead_attempts(connection_.get(), file_, regrade);
+  recovered_ = recover_dead_attempts(connection_.get(), file_);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));
 }
 
@@ -205,6 +205,7 @@ void Database::backup(const fs::path& to) const {
   const auto anchor = read_anchor(file_);  // before the copy: what it holds is in the copy for certain
   copy_database(connection_.get(), to);
   write_anchor(to, anchor);
+  if (const auto key = station_key(file_)) write_station_key(to, *key);  // what is put back goes on being signed
 }
 
 }  // namespace trocar

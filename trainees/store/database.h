@@ -37,12 +37,11 @@ class Database {
  public:
   /// @param file path, or ":memory:" for one that vanishes with the object.
   /// @param busy_timeout_ms how long to wait for another program's write.
-  /// @param regrade grades whole recordings of attempts found dead; without it they are aborted.
   /// @param migrations the way to the schema wanted; another than the program's own only in tests.
   /// @throws EnvironmentError: cannot be opened or written, folder not creatable, disk full, busy too long, a newer
   /// schema. @throws InputError: not a database, another program's database, damaged.
   explicit Database(const std::filesystem::path& file, OpenMode mode = OpenMode::kCreate, int busy_timeout_ms = 5000,
-                    const Regrade& regrade = {}, std::span<const Migration> migrations = shipped_migrations());
+                    std::span<const Migration> migrations = shipped_migrations());
   ~Database();
   Database(Database&&) noexcept;
 

@@ -11,6 +11,7 @@
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/store/schema.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -18,6 +19,8 @@ namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kSignatures = "ALTER TABLE audit ADD COLUMN signature TEXT NOT NULL DEFAULT ''";
 
 struct Close {
   void operator()(sqlite3* connection) const { sqlite3_close_v2(connection); }
@@ -101,18 +104,21 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {{1, schema_sql(), note_migration}};
+  static const Migration kMigrations[] = {{1, schema_sql(), note_migration}, {2, kSignatures, note_migration}};
   return kMigrations;
 }
 
 void note_migration(sqlite3* connection, int from, int to) {
   const std::string wanted = std::to_string(to);
-  if (from == 0) return append_audit(connection, kActionMade, "schema " + wanted, "");
+  const fs::path file = sqlite3_db_filename(connection, "main");
+  const std::string key = file.empty() ? "" : make_station_key(file).public_key();
+  if (from == 0) return append_audit(connection, kActionMade, "schema " + wanted, key);
   const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
   const std::string head = sql::query_text(
       connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
   append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + wanted,
                attempts + " attempts, head " + (head.empty() ? "none" : head));
+  if (announced_keys(connection).empty() && !key.empty()) append_audit(connection, kActionKey, kActionKey, key);
 }
 
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {

@@ -138,6 +138,11 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
   else
     print_result(result, out);
   if (subject.stored && !other) {
+    if (subject.stored->cut_off) {
+      err << "trocar: its program ended before this was stored: the attempt counts as aborted, until a person decides "
+             "on it at the desk\n";
+      return exit_code(result);
+    }
     const auto& before = subject.stored->grade.score;
     const auto& now = result.grade.score;
     if (before.has_value() != now.has_value() || (before && std::abs(*before - *now) > kSameScore)) {

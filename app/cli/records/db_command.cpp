@@ -7,8 +7,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/progress_display.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
+#include "app/session/keeping/recording_check.h"
+#include "haptics/input_error.h"
+#include "trainees/files/write_file.h"
+#include "trainees/integrity/witness.h"
 #include "trainees/records/attempt_identity.h"
 
 namespace trocar {
@@ -23,6 +28,12 @@ std::filesystem::path default_backup(const Database& database) {
   return database.file().string() + "." + time + ".backup";
 }
 
+std::string key_since(const Database& database) {
+  const auto keys = station_keys(database);
+  if (keys.empty()) return "";
+  return ", key " + key_words(keys.back().public_key) + " since entry " + std::to_string(keys.back().position);
+}
+
 }  // namespace
 
 int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
@@ -30,11 +41,21 @@ int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
   const AttemptStore attempts(database);
   std::vector<std::string> problems = database.check();
   for (const std::string& problem : attempts.check_recordings()) problems.push_back(problem);
+  if (!options.quick) {
+    ProgressDisplay progress(err, error_is_terminal());
+    const auto going = [&](std::size_t done, std::size_t all) {
+      progress.show("recordings", static_cast<double>(done) / static_cast<double>(all));
+      return true;
+    };
+    for (const std::string& problem : check_by_recordings(database, {0, going})) problems.push_back(problem);
+  }
+  if (!options.witness.empty())
+    for (const std::string& problem : check_witness(database, options.witness)) problems.push_back(problem);
   if (options.json) {
     out << problems_json(database, problems);
   } else if (problems.empty()) {
     out << database.file().string() << ": sound (schema " << database.schema_version() << ", " << attempts.list().size()
-        << " attempts, head " << database.head() << ")\n";
+        << " attempts, head " << database.head() << key_since(database) << ")\n";
   } else {
     for (const std::string& problem : problems) out << problem << '\n';
   }
@@ -53,6 +74,27 @@ int db_anchor(const DbOptions& options, std::ostream& out, std::ostream& err) {
   Database database = open_database(options.database, OpenMode::kExisting, err);
   database.renew_anchor();
   out << "anchored at " << database.head() << '\n';
+  return 0;
+}
+
+int db_key(const DbOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  if (options.renew) renew_station_key(database);
+  const auto keys = station_keys(database);
+  if (keys.empty()) throw InputError(database.file().string() + ": has no key yet; trocar db key --renew makes one");
+  out << keys.back().public_key << '\n';
+  return 0;
+}
+
+int db_head(const DbOptions& options, std::ostream& out, std::ostream& err) {
+  Database database = open_database(options.database, OpenMode::kExisting, err);
+  const std::string text = exported_head(database);
+  if (options.output.empty()) {
+    out << text;
+    return 0;
+  }
+  write_file(options.output, text);
+  out << options.output.string() << '\n';
   return 0;
 }
 
@@ -80,6 +122,8 @@ void add_db_upkeep(CLI::App& parent, CommandAction& chosen) {
       add_command(parent, "check", "File, schema, references, hash chain, audit trail, what people wrote, recordings",
                   chosen, [given] { return db_check(*given, std::cout, std::cerr); });
   check->add_flag("--json", o.json, "As JSON");
+  check->add_flag("--quick", o.quick, "Recordings by their digests, not graded again");
+  check->add_option("--witness", o.witness, "A head that 'db head --export' wrote before")->check(CLI::ExistingFile);
   CLI::App* backup = add_command(parent, "backup", "Consistent copy", chosen,
                                  [given] { return db_backup(*given, std::cout, std::cerr); });
   backup->add_option("-o,--out", o.output, "File (default: beside the database)")->check(writable_path());
@@ -87,10 +131,16 @@ void add_db_upkeep(CLI::App& parent, CommandAction& chosen) {
                                   [given] { return db_migrate(*given, std::cout, std::cerr); });
   CLI::App* anchor = add_command(parent, "anchor", "Begin a new anchor file where the old one was lost", chosen,
                                  [given] { return db_anchor(*given, std::cout, std::cerr); });
+  CLI::App* key = add_command(parent, "key", "The station's public key", chosen,
+                              [given] { return db_key(*given, std::cout, std::cerr); });
+  key->add_flag("--renew", o.renew, "A new one, where the old one was lost or seen by others");
+  CLI::App* head = add_command(parent, "head", "Head of the audit trail, signed: to be kept elsewhere as a witness",
+                               chosen, [given] { return db_head(*given, std::cout, std::cerr); });
+  head->add_option("--export", o.output, "File")->check(writable_path());
   CLI::App* rubric = add_command(parent, "rubric", "Print the exercise file that attempts were graded by", chosen,
                                  [given] { return db_rubric(*given, std::cout, std::cerr); });
   rubric->add_option("sha256", o.rubric, "At least 4 digits of its sha256")->required();
-  for (CLI::App* command : {check, backup, migrate, anchor, rubric})
+  for (CLI::App* command : {check, backup, migrate, anchor, key, head, rubric})
     command->add_option("--db", o.database, "Database file");
 }
 

@@ -8,13 +8,17 @@
 namespace trocar {
 
 struct DbOptions {
-  std::filesystem::path database;  ///< empty: the default path
-  std::filesystem::path output;    ///< of backup; empty: DATABASE.TIME.backup beside it
-  bool json = false;               ///< of check
-  std::string rubric{};            ///< of rubric: beginning of its sha256
+  std::filesystem::path database;   ///< empty: the default path
+  std::filesystem::path output;     ///< of backup; empty: DATABASE.TIME.backup beside it
+  bool json = false;                ///< of check
+  bool quick = false;               ///< of check: recordings by their digests alone
+  std::filesystem::path witness{};  ///< of check: a head that was exported before
+  bool renew = false;               ///< of key
+  std::string rubric{};             ///< of rubric: beginning of its sha256
 };
 
-/// File, schema with its triggers, references, hash chain, audit trail, anchor, rubrics and the recordings' digests.
+/// File, schema with its triggers, references, hash chain, audit trail and its signatures, anchor, rubrics; each
+/// recording's bytes, whose it is, and the score that it gives.
 /// @return exit code 0 when sound, 2 when anything is not; the problems are the result.
 int db_check(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// @return exit code 0; the copy's path is the result. Never overwrites (InputError).
@@ -24,6 +28,11 @@ int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err);
 int db_migrate(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// Begins a new anchor file. @return exit code 0; the head of the audit trail is the result.
 int db_anchor(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// The public key of the station; with `renew` a new one, which the audit trail tells. @return exit code 0
+int db_key(const DbOptions& options, std::ostream& out, std::ostream& err);
+/// Head of the audit trail, signed by the station's key, as JSON: to `output`, else it is the result. @return exit code
+/// 0
+int db_head(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// The exercise file that attempts were graded by, whether or not it still exists elsewhere. @return exit code 0
 int db_rubric(const DbOptions& options, std::ostream& out, std::ostream& err);
 

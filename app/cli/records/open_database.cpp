@@ -2,14 +2,11 @@
 
 #include <ostream>
 
-#include "app/cli/text_table.h"
-#include "app/session/grading/recorded_result.h"
-
 namespace trocar {
 
 Database open_database(const std::filesystem::path& file, OpenMode mode, std::ostream& err) {
   constexpr int kBusy_ms = 5000;
-  Database database(file.empty() ? default_database_path() : file, mode, kBusy_ms, regrade_file);
+  Database database(file.empty() ? default_database_path() : file, mode, kBusy_ms);
   const MigrationReport& migration = database.migration();
   if (!migration.backup.empty()) {
     err << database.file().string() << ": migrated from schema " << migration.from << " to " << migration.to
@@ -18,12 +15,6 @@ Database open_database(const std::filesystem::path& file, OpenMode mode, std::os
       err << database.file().string() << ": its file keeps its size for now; new attempts use the room in it\n";
   }
   for (const RecoveredAttempt& attempt : database.recovered()) {
-    if (attempt.status != AttemptStatus::kAborted) {
-      err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was over but not stored; its recording gave "
-          << status_name(attempt.status) << (attempt.score ? ", score " + cell(attempt.score, 1) : "") << ": "
-          << attempt.recording.string() << '\n';
-      continue;
-    }
     err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was cut off and is now marked as aborted; "
         << (attempt.recording.empty() ? "it left no recording"
                                       : "its recording is readable: " + attempt.recording.string())

@@ -33,7 +33,7 @@ AttemptStart attempt_start(const Scene& scene, const std::string& trainee, const
   start.exercise_version = scene.setup.exercise.version;
   start.exercise_number = scene.setup.exercise.number;
   start.exercise_title = scene.setup.exercise.title;
-  start.program = TROCAR_VERSION;
+  start.program = program_of_record();
   start.exercise_text = scene.setup.exercise.text;
   start.level = scene.level.name;
   start.seed = scene.setup.seed;
@@ -56,8 +56,10 @@ AttemptStart attempt_start(const Scene& scene, const std::string& trainee, const
 
 std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const AttemptId& id, const Scene& scene,
                                                      const AssetRoots& assets, const SessionHooks& hooks) {
+  SessionHooks bound = hooks;
+  bound.seal = {id.identity, id.key};
   try {
-    return record_session(scene, assets, hooks, id.recording);
+    return record_session(scene, assets, bound, id.recording);
   } catch (const EnvironmentError& error) {
     AttemptResult result;
     result.grade.grade = "not graded";
@@ -105,7 +107,7 @@ void store_or_say(AttemptStore& store, const AttemptId& id, const AttemptResult&
     if (result.grade.score) score += ", score " + std::to_string(*result.grade.score);
     throw EnvironmentError(std::string(error.what()) + "\ntrocar: the attempt was not stored (" + score +
                            "); its recording " + id.recording.string() +
-                           " holds the result, which is stored when the database is next opened");
+                           " holds the result, on which a person can decide at the desk");
   }
 }
 

@@ -25,7 +25,7 @@ std::pair<SessionOutcome, Recording> record_or_abort(AttemptStore& store, const 
 AttemptResult kept_result(const AttemptStart& start, const AttemptId& id, const SessionOutcome& outcome,
                           const Recording& recording);
 
-/// A result that cannot be stored is not lost: its recording is whole, and graded again at the next opening.
+/// A result that cannot be stored is not lost: its recording is whole, and a person can decide by it.
 /// @throws EnvironmentError that says so.
 void store_or_say(AttemptStore& store, const AttemptId& id, const AttemptResult& result);
 

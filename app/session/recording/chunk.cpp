@@ -31,6 +31,7 @@ bool known_type(std::uint32_t type) {
     case ChunkType::kShape:
     case ChunkType::kKeyframes:
     case ChunkType::kTopology:
+    case ChunkType::kLink:
     case ChunkType::kEnd:
       return true;
   }

@@ -13,11 +13,12 @@
 namespace trocar {
 
 inline constexpr std::string_view kRecordingMagic = "TROCREC\n";
-inline constexpr std::uint32_t kRecordingVersion = 4;
+inline constexpr std::uint32_t kRecordingVersion = 5;
 inline constexpr std::uint32_t kOldestReadable =
     1;  ///< 1: without schedule, fewer channels, state hash formed otherwise
 inline constexpr std::uint32_t kOldestVerifiable = 2;    ///< 2: without the channels of stiffness and K_max
 inline constexpr std::uint32_t kFirstWithStiffness = 3;  ///< 3: without keyframes
+inline constexpr std::uint32_t kFirstWithLinks = 5;      ///< 4: chunks that hold together by nothing, of nobody
 inline constexpr std::size_t kRecordingPrefixSize = 12;  ///< magic and version
 inline constexpr std::size_t kChunkHeaderSize = 12;
 inline constexpr std::uint32_t kMaxChunkPayload = 1u << 26;  ///< 64 MiB: a longer length is damage
@@ -32,6 +33,7 @@ enum class ChunkType : std::uint32_t {
   kKeyframes = 0x4659454b,  // "KEYF"
   kTopology = 0x4f504f54,   // "TOPO"
   kRunReport = 0x54504352,  // "RCPT"
+  kLink = 0x4b4e494c,       // "LINK"
   kEnd = 0x21444e45,        // "END!"
 };
 

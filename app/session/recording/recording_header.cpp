@@ -45,7 +45,9 @@ void check_rate(double rate_hz) {
 std::string encode_header(const RecordingHeader& header) {
   check_rate(header.rate_hz);
   try {
-    return Json{{"rate_hz", header.rate_hz}, {"channels", channel_schema()}, {"session", header.session}}.dump();
+    Json json{{"rate_hz", header.rate_hz}, {"channels", channel_schema()}, {"session", header.session}};
+    if (!header.attempt.empty()) json["attempt"] = header.attempt;
+    return json.dump();
   } catch (const Json::exception& error) {
     throw InputError(std::string("recording: the header text is not UTF-8: ") + error.what());
   }
@@ -55,7 +57,7 @@ RecordingHeader decode_header(std::string_view payload) {
   try {
     const Json json = Json::parse(payload);
     RecordingHeader header{json.at("session").get<std::string>(), json.at("rate_hz").get<double>(),
-                           channels_of(json.at("channels"))};
+                           json.value("attempt", ""), channels_of(json.at("channels"))};
     check_rate(header.rate_hz);
     return header;
   } catch (const Json::exception& error) {

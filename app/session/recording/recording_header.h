@@ -1,8 +1,8 @@
 // HEADER payload: JSON with the rate, the channels (name, unit, quantum) and the session's own text.
 //
-// {"channels": [{"name","quantum","unit"}, ...], "rate_hz": 1000.0, "session": "..."}. "session" is opaque here:
-// whatever the session needs to replay and regrade. It should hold nothing that differs between two equal runs, so that
-// equal runs give equal files.
+// {"attempt": "...", "channels": [{"name","quantum","unit"}, ...], "rate_hz": 1000.0, "session": "..."}. "session" is
+// opaque here: whatever the session needs to replay and regrade. It should hold nothing that differs between two equal
+// runs, so that equal runs give equal files. "attempt" says whose the recording is (seal.h); not there: of no attempt.
 #pragma once
 
 #include <string>
@@ -16,6 +16,7 @@ namespace trocar {
 struct RecordingHeader {
   std::string session;  ///< UTF-8, any content
   double rate_hz = 1000;
+  std::string attempt = {};                    ///< UTF-8; "" of no attempt
   std::vector<RecordedChannel> channels = {};  ///< reading: the columns of its rows, in their order
 };
 

@@ -8,6 +8,7 @@
 #include "app/session/recording/chunk.h"
 #include "app/session/recording/event_codec.h"
 #include "app/session/recording/recording_header.h"
+#include "app/session/recording/seal.h"
 
 namespace trocar {
 namespace {
@@ -32,6 +33,7 @@ class Parser {
         break;
       }
     }
+    check_links();
     check_end();
     recording_.sha256 = digest::of_bytes(file_);
     return std::move(recording_);
@@ -64,6 +66,7 @@ class Parser {
     try {
       RecordingHeader header = decode_header(chunk->payload);
       recording_.session = std::move(header.session);
+      recording_.attempt = std::move(header.attempt);
       recording_.rate_hz = header.rate_hz;
       channels_ = std::move(header.channels);
       check_channels();
@@ -83,7 +86,8 @@ class Parser {
 
   /// Takes over one whole chunk.
   void accept(const Chunk& chunk) {
-    if (recording_.end) return report(chunk.offset, "stands after the END");
+    if (recording_.end && (chunk.type != ChunkType::kLink || sealed()))
+      return report(chunk.offset, "stands after the END");
     try {
       switch (chunk.type) {
         case ChunkType::kHeader:
@@ -103,8 +107,11 @@ class Parser {
           return recording_.tissue.add_keyframes(chunk.payload);
         case ChunkType::kTopology:
           return recording_.tissue.add_changes(chunk.payload);
+        case ChunkType::kLink:
+          return accept_link(chunk);
         case ChunkType::kEnd:
           recording_.end = decode_end(chunk.payload);
+          ended_at_ = chunk.end();
           return;
       }
     } catch (const InputError& error) {
@@ -137,10 +144,32 @@ class Parser {
     whole.steps.insert(whole.steps.end(), part.steps.begin(), part.steps.end());
   }
 
+  void accept_link(const Chunk& chunk) {
+    const std::string_view said = chunk.payload.substr(0, kLinkHashSize), signature = chunk.payload.substr(said.size());
+    if (make_link(link_, file_.substr(linked_to_, chunk.offset - linked_to_), std::nullopt) != said)
+      report(chunk.offset, "does not hold together with what is before it: something was changed, added or left out");
+    link_ = said;
+    linked_to_ = chunk.end();
+    signature_ = signature;
+  }
+
+  /// Whether nothing may follow the END.
+  bool sealed() const { return recording_.version < kFirstWithLinks || linked_to_ >= ended_at_; }
+
+  /// The last link holds all before it.
+  void check_links() {
+    if (recording_.end && !sealed()) {
+      recording_.end.reset();
+      if (recording_.torn.empty()) recording_.torn = "its END is in no link: the attempt was cut off";
+    }
+    const std::string key = attempt_field(recording_.attempt, "key");
+    if (!key.empty() && signature_holds(key, link_text(link_), signature_)) recording_.signed_by = key;
+  }
+
   /// Nothing whole follows: either the file was cut off, or its last chunk is damaged.
   void reject_tail(std::size_t offset) {
     const std::string bytes = std::to_string(file_.size() - offset) + " bytes";
-    if (recording_.end) return report(offset, "stands after the END (" + bytes + ")");
+    if (recording_.end && sealed()) return report(offset, "stands after the END (" + bytes + ")");
     if (chunk_fits(file_, offset)) return report(offset, "does not agree with its CRC; " + bytes + " are lost");
     recording_.torn = "cut off at byte " + std::to_string(offset) + ": the last " + bytes + " are not a whole chunk";
   }
@@ -166,6 +195,9 @@ class Parser {
   const std::string& name_;
   bool strict_;
   std::vector<RecordedChannel> channels_;
+  std::string link_;                          ///< hash of the last link
+  std::string_view signature_;                ///< of the last link
+  std::size_t linked_to_ = 0, ended_at_ = 0;  ///< ends of the last link and of the END
   Recording recording_;
 };
 

@@ -19,7 +19,9 @@
 namespace trocar {
 
 struct Recording {
-  std::string session;  ///< the opaque text given to the writer
+  std::string session;    ///< the opaque text given to the writer
+  std::string attempt;    ///< whose it is (seal.h); "" of no attempt, and before format 5
+  std::string signed_by;  ///< public key that its last link is signed with, the one that `attempt` names; "" none
   double rate_hz = 0;
   std::uint32_t version = 0;        ///< of the format
   std::vector<RecordedTick> ticks;  ///< ticks increase; they may skip only where `damage` or the device says so

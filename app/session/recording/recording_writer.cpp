@@ -34,17 +34,19 @@ RecordingEnd decode_end(std::string_view payload) {
   return end;
 }
 
-RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::string_view session, double rate_hz)
-    : owned_(std::make_unique<FileSink>(file)), sink_(*owned_) {
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, std::string_view session, double rate_hz,
+                                 RecordingSeal seal)
+    : owned_(std::make_unique<FileSink>(file)), sink_(*owned_), seal_(std::move(seal)) {
   begin(session, rate_hz);
 }
 
-RecordingWriter::RecordingWriter(RecordingSink& sink, std::string_view session, double rate_hz) : sink_(sink) {
+RecordingWriter::RecordingWriter(RecordingSink& sink, std::string_view session, double rate_hz, RecordingSeal seal)
+    : sink_(sink), seal_(std::move(seal)) {
   begin(session, rate_hz);
 }
 
 void RecordingWriter::begin(std::string_view session, double rate_hz) {
-  const std::string header = encode_header({std::string(session), rate_hz});
+  const std::string header = encode_header({std::string(session), rate_hz, seal_.attempt});
   rows_per_chunk_ = static_cast<std::size_t>(std::max(1.0, std::round(kChunk_s * rate_hz)));
   rows_.reserve(rows_per_chunk_);
   write(recording_prefix() + make_chunk(ChunkType::kHeader, header));
@@ -87,7 +89,7 @@ void RecordingWriter::flush() {
   rows_.clear();
   events_.clear();
   schedule_ = {};
-  if (!chunks.empty()) write(chunks);
+  if (!chunks.empty()) write(std::move(chunks));
 }
 
 std::string RecordingWriter::tissue_chunks() {
@@ -112,7 +114,10 @@ void RecordingWriter::close(RecordingEnd end, std::string_view run_report_json) 
   state_ = State::kClosed;
 }
 
-void RecordingWriter::write(const std::string& chunks) {
+void RecordingWriter::write(std::string chunks) {
+  const std::string link = make_link(link_, chunks, seal_.key);
+  link_ = link.substr(0, kLinkHashSize);
+  chunks += make_chunk(ChunkType::kLink, link);
   try {
     sink_.append(chunks);
     sink_.sync();

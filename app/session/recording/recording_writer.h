@@ -17,6 +17,7 @@
 #include "app/session/recording/recorded_tick.h"
 #include "app/session/recording/recording_sink.h"
 #include "app/session/recording/schedule.h"
+#include "app/session/recording/seal.h"
 #include "app/session/recording/tick_codec.h"
 #include "app/session/recording/tissue_codec.h"
 #include "haptics/digest/digest.h"
@@ -43,9 +44,9 @@ class RecordingWriter {
 
   /// Records to a file. @param session opaque text for the header (recording_header.h).
   /// @throws EnvironmentError naming the file, InputError for a bad rate or text.
-  RecordingWriter(const std::filesystem::path& file, std::string_view session, double rate_hz);
+  RecordingWriter(const std::filesystem::path& file, std::string_view session, double rate_hz, RecordingSeal seal = {});
   /// Records to a sink that outlives the writer.
-  RecordingWriter(RecordingSink& sink, std::string_view session, double rate_hz);
+  RecordingWriter(RecordingSink& sink, std::string_view session, double rate_hz, RecordingSeal seal = {});
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -73,11 +74,13 @@ class RecordingWriter {
  private:
   void begin(std::string_view session, double rate_hz);
   std::string tissue_chunks();
-  void write(const std::string& bytes);
+  void write(std::string bytes);
   void require_open() const;
 
   std::unique_ptr<FileSink> owned_;
   RecordingSink& sink_;
+  RecordingSeal seal_;
+  std::string link_;  ///< hash of the last link
   TickEncoder encoder_;
   digest::Stream digest_;
   std::vector<RecordedTick> rows_;

@@ -112,6 +112,11 @@ AssetRoots find_assets() {
   throw EnvironmentError("the program's exercises and assets were not found; looked in" + looked);
 }
 
+std::string program_of_record() {
+  const char* named = std::getenv("TROCAR_ASSETS");
+  return named && *named ? TROCAR_VERSION ", assets of " + std::filesystem::absolute(named).string() : TROCAR_VERSION;
+}
+
 namespace {
 
 /// Refuses a surface so fine that a patch would end before the tool can reach its end.

@@ -37,6 +37,9 @@ struct AssetRoots {
 /// Finds the assets of an installed or a just built program. @throws EnvironmentError naming the places looked at.
 AssetRoots find_assets();
 
+/// The program's version as the record keeps it, with the folder of its assets where others than its own were named.
+std::string program_of_record();
+
 /// How late the loop may be before it is a fault.
 struct PaceLimits {
   std::uint32_t missed_in_a_row = 20;

@@ -53,7 +53,7 @@ Database checked_database(const AttemptRequest& request, const Scene& scene, con
     require_room(file.parent_path(), room_needed(2 * scene.level.time_limit_s + kBeyondLimits_s, rate_hz),
                  room_free(file.parent_path()));
   }
-  return Database(file, OpenMode::kCreate, kBusy_ms, regrade_file);
+  return Database(file, OpenMode::kCreate, kBusy_ms);
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ struct AttemptRunner::State {
         start(attempt_start(*scene, request.trainee, request.session)),
         id(store.begin_attempt(start)) {
     for (const RecoveredAttempt& attempt : database.recovered())
-      note("attempt " + attempt.uuid + " of " + attempt.trainee + " was cut off and is now kept as " +
-           status_name(attempt.status));
+      note("attempt " + attempt.uuid + " of " + attempt.trainee + " was cut off and is now kept as aborted");
   }
 
   void note(const std::string& line) {

@@ -21,10 +21,8 @@ std::string local_time(const std::string& utc, long long now) {
 std::string cut_off_words(const Translator& words, const std::string& name, const AttemptSummary& attempt,
                           long long now) {
   const std::string at = local_time(attempt.started_utc, now);
-  if (attempt.cut_off)
-    return words("The attempt of {0} at {1} was cut off; it is kept as aborted and its recording can be seen.",
-                 {name, at});
-  return words("The attempt of {0} at {1} was over when its program ended; its result is stored now.", {name, at});
+  return words("The attempt of {0} at {1} was cut off; it is kept as aborted and its recording can be seen.",
+               {name, at});
 }
 
 }  // namespace trocar

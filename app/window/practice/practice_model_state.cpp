@@ -64,7 +64,7 @@ void PracticeModel::State::open_database(std::string& notice) {
   const bool named = !options.database.empty();
   try {
     const std::filesystem::path file = named ? options.database : default_database_path();
-    database = std::make_unique<Database>(file, OpenMode::kCreate, kBusy_ms, regrade_file);
+    database = std::make_unique<Database>(file, OpenMode::kCreate, kBusy_ms);
     recovered = database->recovered();
     if (const std::string said = recovered_words(""); !said.empty()) notice = said;
   } catch (const EnvironmentError& error) {

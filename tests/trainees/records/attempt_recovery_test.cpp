@@ -65,41 +65,22 @@ TEST_F(AttemptRecovery, AKilledAttemptIsAbortedAndItsRecordingReadable) {
   EXPECT_TRUE(AttemptStore(database).check_recordings().empty());
 }
 
-TEST_F(AttemptRecovery, AWholeRecordingIsGradedAgainAndStoredAsWhatItWas) {
+TEST_F(AttemptRecovery, AWholeRecordingInItsPlaceEarnsNothing) {
   Child child(folder_ / "t.db");
   child.kill_and_reap();
-  std::filesystem::path asked;
-  Database database(folder_ / "t.db", OpenMode::kExisting, 5000, [&](const std::filesystem::path& recording) {
-    asked = recording;
-    return std::optional(sample_result(88.5));
-  });
+  std::filesystem::path place;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "t.recordings")) place = entry.path();
+  std::filesystem::remove(place);
+  RecordingWriter(place, "another's", 1000).close({0, AttemptStatus::kCompleted, 0, 0, ""});
+  const Database database(folder_ / "t.db");
   ASSERT_EQ(database.recovered().size(), 1u);
-  EXPECT_EQ(database.recovered()[0].status, AttemptStatus::kCompleted);
-  EXPECT_EQ(database.recovered()[0].score, 88.5);
-  EXPECT_EQ(asked, database.recovered()[0].recording);
-  const AttemptResult result = AttemptStore(database).load("latest");
-  EXPECT_EQ(result.grade.score, 88.5);
-  EXPECT_EQ(result.grade.metrics.size(), sample_result().grade.metrics.size());
-  EXPECT_EQ(result.events.size(), 2u);
-  EXPECT_EQ(result.integrity, "");
-  EXPECT_TRUE(database.check().empty());
-}
-
-TEST_F(AttemptRecovery, ARecordingThatCannotBeGradedIsAbortedWithTheReason) {
-  const auto damaged = [](const std::filesystem::path&) -> std::optional<AttemptResult> {
-    throw InputError("its header is damaged");
-  };
-  const auto cut = [](const std::filesystem::path&) { return std::optional<AttemptResult>(); };
-  for (const Regrade& regrade : {Regrade(damaged), Regrade(cut)}) {
-    Child child(folder_ / "t.db");
-    child.kill_and_reap();
-    Database database(folder_ / "t.db", OpenMode::kExisting, 5000, regrade);
-    EXPECT_EQ(AttemptStore(database).latest()->status, "aborted");
-  }
-  const auto attempts = AttemptStore(*std::make_unique<Database>(folder_ / "t.db")).list();
-  EXPECT_EQ(attempts[0].integrity, "its program ended before the attempt did");
-  EXPECT_TRUE(attempts[0].cut_off);
-  EXPECT_NE(attempts[1].integrity.find("its header is damaged"), std::string::npos);
+  EXPECT_EQ(database.recovered()[0].recording, place);
+  Database again(folder_ / "t.db");
+  const AttemptResult result = AttemptStore(again).load("latest");
+  EXPECT_EQ(result.grade.status, AttemptStatus::kAborted);
+  EXPECT_TRUE(result.cut_off);
+  EXPECT_FALSE(result.grade.score);
+  EXPECT_NE(AttemptStore(again).recording_problem(result.uuid, read_recording(place).attempt, ""), "");
 }
 
 TEST_F(AttemptRecovery, ALivingSecondProgramIsNotDisturbed) {

@@ -317,7 +317,7 @@ TEST_F(AttemptFile, AMissingOrChangedRecordingIsReported) {
     id = store.begin_attempt(sample_start());
     std::filesystem::create_directories(id.recording.parent_path());
     FILE* file = std::fopen(id.recording.c_str(), "w");
-    std::fputs("recording", file);
+    std::fputs(id.uuid.c_str(), file);
     std::fclose(file);
     AttemptResult result = sample_result();
     result.recording_sha256 = digest::of_file(id.recording);
@@ -332,6 +332,17 @@ TEST_F(AttemptFile, AMissingOrChangedRecordingIsReported) {
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_NE(problems[0].find("is missing"), std::string::npos);
   EXPECT_NE(problems[1].find("was changed"), std::string::npos);
+}
+
+TEST_F(AttemptFile, OneRecordingCountsOnce) {
+  Database database(folder_ / "t.db");
+  for (const char* trainee : {"T-one", "T-two"}) {
+    AttemptResult result = sample_result();
+    result.recording_sha256 = digest::of_bytes("the same");
+    store_attempt(database, sample_start(trainee), result);
+  }
+  EXPECT_NE(AttemptStore(database).check_recordings().front().find("one recording counts for two attempts"),
+            std::string::npos);
 }
 
 TEST(AttemptSessions, AttemptsOfOneSignInShareARowAndItsEndMoves) {

@@ -19,6 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const int kNow = shipped_migrations().back().version, kNext = kNow + 1;
+
+fs::path backup_of(const fs::path& database, const std::string& again = "") {
+  return database.string() + ".schema" + std::to_string(kNow) + again + ".backup";
+}
+
 class OldStore : public TemporaryFolder {
  protected:
   OldStore() : file_(folder_ / "old.db") { make_store(file_, 7); }
@@ -38,8 +44,8 @@ class OldStore : public TemporaryFolder {
 
 TEST_F(OldStore, EveryAttemptStaysAndTheCutOffOnesAreMarked) {
   Database database = open_by_next_program(file_);
-  EXPECT_EQ(database.migration().from, 1);
-  EXPECT_EQ(database.migration().to, 2);
+  EXPECT_EQ(database.migration().from, kNow);
+  EXPECT_EQ(database.migration().to, kNext);
   EXPECT_TRUE(database.migration().compacted);
   EXPECT_EQ(database.recovered().size(), 2u) << "the third and the sixth";
   EXPECT_EQ(problems_of(database), "");
@@ -60,18 +66,18 @@ TEST_F(OldStore, TheTrailSaysWhatWasThereBefore) {
       sql::query_text(database.connection(), "SELECT detail FROM audit WHERE action = 'schema migrated'");
   EXPECT_EQ(detail.find("7 attempts, head "), 0u) << detail;
   EXPECT_EQ(sql::query_text(database.connection(), "SELECT subject FROM audit WHERE action = 'schema migrated'"),
-            "schema 1 to 2");
+            "schema " + std::to_string(kNow) + " to " + std::to_string(kNext));
 }
 
 TEST_F(OldStore, TheBackupIsTheOldDatabaseWhole) {
   const fs::path backup = open_by_next_program(file_).migration().backup;
-  ASSERT_EQ(backup, file_.string() + ".schema1.backup");
-  EXPECT_EQ(schema_of_file(backup), 1);
+  ASSERT_EQ(backup, backup_of(file_));
+  EXPECT_EQ(schema_of_file(backup), kNow);
   for (const char* beside : {"-wal", "-shm"})
     EXPECT_FALSE(fs::exists(backup.string() + beside)) << "a backup is one file: " << beside;
   fs::rename(backup, folder_ / "again.db");
   Database again = open_by_next_program(folder_ / "again.db");
-  EXPECT_EQ(again.migration().from, 1);
+  EXPECT_EQ(again.migration().from, kNow);
   EXPECT_EQ(AttemptStore(again).list().size(), 7u);
 }
 
@@ -79,7 +85,8 @@ TEST_F(OldStore, AnOlderProgramLeavesTheNewOneAlone) {
   { open_by_next_program(file_); }
   const std::string before = bytes();
   const std::string message = message_of<EnvironmentError>([&] { Database{file_}; });
-  EXPECT_NE(message.find("newer trocar (schema 2, this program knows up to 1); it was left as it is"),
+  EXPECT_NE(message.find("newer trocar (schema " + std::to_string(kNext) + ", this program knows up to " +
+                         std::to_string(kNow) + "); it was left as it is"),
             std::string::npos)
       << message;
   EXPECT_EQ(bytes(), before);
@@ -98,7 +105,7 @@ TEST_F(OldStore, WithoutRoomToCompactItIsStillMigrated) {
     sql::Statement rows(reader, "SELECT uuid FROM attempt");
     ASSERT_TRUE(rows.step());
     const Database database = open_by_next_program(file_, 50);
-    EXPECT_EQ(database.schema_version(), 2);
+    EXPECT_EQ(database.schema_version(), kNext);
     EXPECT_EQ(problems_of(database), "");
   }
   sqlite3_close(reader);
@@ -107,7 +114,7 @@ TEST_F(OldStore, WithoutRoomToCompactItIsStillMigrated) {
 TEST_F(OldStore, KillMinusNineInTheMiddleLeavesTheOldOneUsable) {
   // A step that writes for seconds after everything else has been done, so that the kill comes before the commit.
   const Migration steps[] = {shipped_migrations().front(),
-                             {2,
+                             {kNext,
                               "CREATE TABLE slow (x INTEGER); WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 "
                               "FROM n WHERE x < 100000000) INSERT INTO slow SELECT x FROM n;"}};
   const pid_t child = fork();
@@ -128,12 +135,12 @@ TEST_F(OldStore, KillMinusNineInTheMiddleLeavesTheOldOneUsable) {
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status)) << "it ended before it could be killed";
-  EXPECT_EQ(asked("PRAGMA user_version"), 1);
+  EXPECT_EQ(asked("PRAGMA user_version"), kNow);
   EXPECT_EQ(asked("SELECT count(*) FROM attempt"), 7);
   EXPECT_EQ(asked("SELECT count(*) FROM sqlite_schema WHERE name = 'slow'"), 0);
   const Database database = open_by_next_program(file_);
-  EXPECT_EQ(database.migration().from, 1);
-  EXPECT_EQ(database.migration().backup, file_.string() + ".schema1-2.backup") << "the first backup is kept as well";
+  EXPECT_EQ(database.migration().from, kNow);
+  EXPECT_EQ(database.migration().backup, backup_of(file_, "-2")) << "the first backup is kept as well";
   EXPECT_TRUE(database.check().empty());
 }
 
@@ -150,9 +157,9 @@ TEST_F(OldStore, WithoutRoomForTheBackupNothingIsMigrated) {
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  EXPECT_EQ(asked("PRAGMA user_version"), 1);
-  EXPECT_FALSE(fs::exists(file_.string() + ".schema1.backup")) << "no half backup";
-  EXPECT_EQ(open_by_next_program(file_).migration().to, 2);
+  EXPECT_EQ(asked("PRAGMA user_version"), kNow);
+  EXPECT_FALSE(fs::exists(backup_of(file_))) << "no half backup";
+  EXPECT_EQ(open_by_next_program(file_).migration().to, kNext);
 }
 
 }  // namespace

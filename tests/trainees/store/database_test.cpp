@@ -164,7 +164,7 @@ TEST_F(DatabaseFile, ANewerSchemaIsRefusedAndNotTouched) {
   { Database database(folder_ / "t.db"); }
   ASSERT_EQ(run_outside(folder_ / "t.db", "PRAGMA user_version = 99"), "");
   const std::string message = message_of<EnvironmentError>([&] { Database(folder_ / "t.db"); });
-  EXPECT_NE(message.find("newer trocar (schema 99, this program knows up to 1)"), std::string::npos) << message;
+  EXPECT_NE(message.find("newer trocar (schema 99, this program knows up to "), std::string::npos) << message;
 }
 
 TEST_F(DatabaseFile, DamagedPagesAreFound) {

@@ -24,7 +24,7 @@ std::span<const Migration> next_migrations() {
 }
 
 Database open_by_next_program(const fs::path& file, int busy_timeout_ms) {
-  return Database(file, OpenMode::kCreate, busy_timeout_ms, {}, next_migrations());
+  return Database(file, OpenMode::kCreate, busy_timeout_ms, next_migrations());
 }
 
 int written_version(const fs::path& file) {

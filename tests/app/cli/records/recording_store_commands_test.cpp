@@ -34,6 +34,13 @@ class StoreCommands : public TemporaryFolder {
     store_attempt(database, sample_start("T-two"), aborted);
   }
 
+  DbOptions rubric_named(const std::string& beginning) const {
+    DbOptions options;
+    options.database = file_;
+    options.rubric = beginning;
+    return options;
+  }
+
   std::filesystem::path file_;
   std::ostringstream out_, err_;
 };
@@ -134,10 +141,10 @@ TEST_F(StoreCommands, AnExerciseFileOfTheSameIdIsSeenAsAnother) {
   EXPECT_EQ(trainee_show({file_, "T-one", 0}, out_, err_), 0);
   EXPECT_LT(out_.str().find(own), out_.str().find(shipped)) << "newest first: " << out_.str();
   out_.str("");
-  EXPECT_EQ(db_rubric({file_, "", false, digest::of_bytes(easier.exercise_text).substr(0, 8)}, out_, err_), 0);
+  EXPECT_EQ(db_rubric(rubric_named(digest::of_bytes(easier.exercise_text).substr(0, 8)), out_, err_), 0);
   EXPECT_EQ(out_.str(), easier.exercise_text);
-  EXPECT_THROW(db_rubric({file_, "", false, "ffff"}, out_, err_), InputError);
-  EXPECT_THROW(db_rubric({file_, "", false, "x"}, out_, err_), InputError);
+  EXPECT_THROW(db_rubric(rubric_named("ffff"), out_, err_), InputError);
+  EXPECT_THROW(db_rubric(rubric_named("x"), out_, err_), InputError);
 }
 
 TEST_F(StoreCommands, DbAnchorRenewsALostAnchor) {
@@ -162,7 +169,7 @@ TEST_F(StoreCommands, ReadingCommandsDoNotMakeADatabase) {
 TEST_F(StoreCommands, DbCheckIsZeroWhenSoundAndTwoWhenNot) {
   fill();
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 0);
-  EXPECT_NE(out_.str().find("sound (schema 1, 3 attempts, head 9:"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("sound (schema 2, 3 attempts, head 9:"), std::string::npos) << out_.str();
   ASSERT_EQ(run_outside(file_, "DROP TRIGGER score_no_update; UPDATE score SET value = 100 WHERE attempt_id = 1"), "");
   out_.str("");
   EXPECT_EQ(db_check({file_, "", true}, out_, err_), 2);
@@ -197,7 +204,7 @@ TEST_F(StoreCommands, DbBackupNamesItsCopyAndMigrateSaysWhereItStands) {
   EXPECT_THROW(db_backup({file_, folder_ / "named"}, out_, err_), InputError);
   out_.str("");
   EXPECT_EQ(db_migrate({file_, ""}, out_, err_), 0);
-  EXPECT_EQ(out_.str(), "schema 1, up to date\n");
+  EXPECT_EQ(out_.str(), "schema 2, up to date\n");
 }
 
 TEST_F(StoreCommands, OpeningReportsAttemptsThatWereCutOff) {

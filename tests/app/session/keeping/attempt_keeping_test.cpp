@@ -153,8 +153,7 @@ TEST_F(AttemptKeeping, AResultThatTheDatabaseRefusesIsSaidWithScoreAndFile) {
     const Writer busy(folder_ / "trocar.db");
     const std::string said = message_of<EnvironmentError>([&] { store_or_say(store_, id, result); });
     EXPECT_CONTAINS(said, "the attempt was not stored (completed, score 81.25");
-    EXPECT_CONTAINS(said,
-                    id.recording.string() + " holds the result, which is stored when the database is next opened");
+    EXPECT_CONTAINS(said, id.recording.string() + " holds the result, on which a person can decide at the desk");
     const std::string plain = message_of<EnvironmentError>([&] { store_or_say(store_, unrecorded, result); });
     EXPECT_EQ(plain.find("holds the result"), std::string::npos) << "there is no file to promise: " << plain;
     EXPECT_TRUE(said.starts_with(plain)) << said;

@@ -111,7 +111,9 @@ TEST(RecordingWriter, WritesAChunkEachHalfSecondWhateverTheRate) {
     writer.append(row);
     const std::size_t one = sink.bytes().size();
     EXPECT_GT(one, empty) << rate;
-    EXPECT_EQ(chunk_at(sink.bytes(), empty)->end(), one) << rate;
+    const std::size_t link = chunk_at(sink.bytes(), empty)->end();
+    EXPECT_EQ(chunk_at(sink.bytes(), link)->type, ChunkType::kLink) << rate;
+    EXPECT_EQ(chunk_at(sink.bytes(), link)->end(), one) << rate;
   }
 }
 

@@ -1,0 +1,26 @@
+// Whether each recording is that of its attempt and still gives what the record says: read, its chain and signature
+// looked at, and graded again.
+//
+// What a record says can be rewritten together with every hash in it; a recording can not without the station's key,
+// and a score that it does not give shows. Thread: the caller's, and others of its own while it runs.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trainees/records/attempt_store.h"
+
+namespace trocar {
+
+struct RecordingCheck {
+  int jobs = 0;  ///< threads; 0: one a core
+  std::function<bool(std::size_t done, std::size_t all)> going =
+      {};  ///< now and then, in the caller's thread: false stops
+};
+
+/// Of every attempt of this database whose recording is in its place with the bytes that it was kept with; of others
+/// AttemptStore::check_recordings() tells. @returns a line each.
+std::vector<std::string> check_by_recordings(Database& database, const RecordingCheck& options = {});
+
+}  // namespace trocar

@@ -1,0 +1,180 @@
+// Somebody rewrites the record with all that the program has, the functions that make its hashes among it, and puts the
+// anchor right: what shows it then.
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "tests/trainees/records/store_samples.h"
+#include "trainees/files/write_file.h"
+#include "trainees/integrity/anchor_file.h"
+#include "trainees/integrity/attempt_chain.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/integrity/witness.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar::rewritten_history_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Entry {
+  std::string actor, action, subject, detail;
+};
+
+class RewrittenHistory : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    Database database(file_);
+    for (const double score : {31.0, 42.0, 88.0}) {
+      AttemptResult result = sample_result(score);
+      result.grade.passed = score > 60;
+      store_attempt(database, sample_start(), result);
+    }
+    write_file(witness_, exported_head(database));
+    ASSERT_EQ(problems_of(database), "");
+  }
+
+  /// Failures become passes; both chains are made again from their beginning, the anchor too.
+  /// @param first detail of the first entry, which names the key; "" as it was.
+  void rewrite(const std::string& first = "") {
+    sqlite3* raw = nullptr;
+    sqlite3_open(file_.c_str(), &raw);
+    for (const std::string& trigger : triggers(raw)) sql::execute(raw, ("DROP TRIGGER " + trigger).c_str());
+    sql::execute(raw, "UPDATE score SET value = 95, passed = 1");
+    std::vector<Entry> entries;
+    {
+      sql::Statement rows(raw, "SELECT actor, action, subject, detail FROM audit ORDER BY position");
+      while (rows.step()) entries.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3)});
+    }
+    if (!first.empty()) entries.front().detail = first;
+    sql::execute(raw,
+                 "DELETE FROM audit; UPDATE attempt SET status = 'running', chain_position = NULL, prev_hash = NULL, "
+                 "row_hash = NULL");
+    for (const Entry& entry : entries) {
+      if (entry.action != kActionFinished) {
+        append_audit(raw, entry.action, entry.subject, entry.detail, entry.actor);
+        continue;
+      }
+      sql::Statement row(raw, "SELECT id FROM attempt WHERE uuid = ?");
+      row.bind(entry.subject).step();
+      seal_attempt(raw, row.integer(0), AttemptStatus::kCompleted);
+    }
+    const AuditHead head = audit_head(raw);
+    sqlite3_close_v2(raw);
+    fs::remove(anchor_path(file_));
+    append_anchor(file_, {1, first_hash()});
+    append_anchor(file_, head);
+    put_triggers_back();
+  }
+
+  std::string said() {
+    const Database database(file_, OpenMode::kExisting);
+    return problems_of(database);
+  }
+  std::vector<std::string> witnessed() {
+    const Database database(file_, OpenMode::kExisting);
+    return check_witness(database, witness_);
+  }
+
+  const fs::path file_ = folder_ / "t.db", witness_ = folder_ / "head.json";
+
+ private:
+  std::vector<std::string> triggers(sqlite3* raw) {
+    std::vector<std::string> names;
+    sql::Statement rows(raw, "SELECT name, sql FROM sqlite_schema WHERE type = 'trigger'");
+    while (rows.step()) {
+      names.push_back(rows.text(0));
+      made_ += rows.text(1) + ";\n";
+    }
+    return names;
+  }
+  void put_triggers_back() {
+    EXPECT_EQ(run_outside(file_, made_), "");
+    made_.clear();
+  }
+  std::string first_hash() {
+    const Database database(file_, OpenMode::kExisting);
+    return audit_hash(database.connection(), 1);
+  }
+  std::string made_;
+};
+
+TEST_F(RewrittenHistory, WithoutTheKeyItShows) {
+  fs::rename(key_path(file_), folder_ / "taken");
+  rewrite();
+  EXPECT_NE(said().find("is not signed with the station's key"), std::string::npos) << said();
+  fs::rename(folder_ / "taken", key_path(file_));
+  EXPECT_NE(said().find("is not signed with the station's key"), std::string::npos) << said();
+}
+
+TEST_F(RewrittenHistory, WithAnotherKeyInItsPlaceItShows) {
+  const SigningKey own = SigningKey::make();
+  fs::remove(key_path(file_));
+  write_station_key(file_, own);
+  rewrite();
+  EXPECT_NE(said().find("is not the one that the trail names"), std::string::npos) << said();
+  EXPECT_NE(said().find("was not signed with the station's key"), std::string::npos) << said();
+}
+
+TEST_F(RewrittenHistory, AsAWholeUnderAnotherKeyOnlyAWitnessShowsIt) {
+  const SigningKey own = SigningKey::make();
+  fs::remove(key_path(file_));
+  write_station_key(file_, own);
+  rewrite(own.public_key());
+  EXPECT_EQ(said(), "") << "this is what docs/data_store.md says, and why heads are kept elsewhere";
+  ASSERT_EQ(witnessed().size(), 1u);
+  EXPECT_NE(witnessed().front().find("is another"), std::string::npos);
+}
+
+TEST_F(RewrittenHistory, ARollbackOfEverythingTogetherIsFoundByTheWitness) {
+  for (const char* more : {"", ".anchor"}) fs::copy_file(file_.string() + more, (folder_ / "old").string() + more);
+  {
+    Database database(file_);
+    store_attempt(database, sample_start(), sample_result());
+    write_file(witness_, exported_head(database));
+  }
+  EXPECT_TRUE(witnessed().empty());
+  for (const char* more : {"-wal", "-shm"}) fs::remove(file_.string() + more);
+  for (const char* more : {"", ".anchor"})
+    fs::copy_file((folder_ / "old").string() + more, file_.string() + more, fs::copy_options::overwrite_existing);
+  EXPECT_EQ(said(), "");
+  ASSERT_EQ(witnessed().size(), 1u);
+  EXPECT_NE(witnessed().front().find("the newest entries are missing"), std::string::npos);
+}
+
+TEST_F(RewrittenHistory, AWitnessThatWasChangedIsNone) {
+  std::ifstream in(witness_);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto at = text.find("row_hash") + 15;
+  text[at] = text[at] == 'a' ? 'b' : 'a';
+  write_file(witness_, text);
+  EXPECT_THROW(witnessed(), InputError);
+  write_file(witness_, "{}");
+  EXPECT_THROW(witnessed(), InputError);
+}
+
+TEST_F(RewrittenHistory, ANewKeyIsToldAndWhatItSignsHolds) {
+  Database database(file_);
+  fs::remove(key_path(file_));
+  EXPECT_EQ(problems_of(database), "") << "a copy without its key can still be looked at";
+  renew_station_key(database);
+  store_attempt(database, sample_start(), sample_result());
+  EXPECT_EQ(problems_of(database), "");
+  EXPECT_EQ(station_keys(database).size(), 2u);
+  renew_station_key(database);
+  EXPECT_EQ(problems_of(database), "");
+  EXPECT_EQ(station_keys(database).size(), 3u);
+  EXPECT_TRUE(fs::exists(key_path(file_).string() + "." + key_words(station_keys(database)[1].public_key)));
+}
+
+TEST_F(RewrittenHistory, AKeyThatOthersMayReadIsRefused) {
+  fs::permissions(key_path(file_), fs::perms::others_read, fs::perm_options::add);
+  EXPECT_NE(message_of<EnvironmentError>([&] {
+              Database database(file_);
+              store_attempt(database, sample_start(), sample_result());
+            }).find("can be read by others"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar::rewritten_history_test

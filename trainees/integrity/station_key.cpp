@@ -1,0 +1,83 @@
+#include "trainees/integrity/station_key.h"
+
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTitle = "Trocar, key of a station: keep it secret";
+
+void require_secret(const fs::path& file) {
+  struct stat about {};
+  if (::stat(file.c_str(), &about) == 0 && (about.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    throw EnvironmentError(file.string() +
+                           ": the station's key can be read by others; chmod 600 it, and if others may "
+                           "have read it, make a new one: trocar db key --renew");
+}
+
+}  // namespace
+
+fs::path key_path(const fs::path& database) { return database.string() + ".key"; }
+
+std::optional<SigningKey> station_key(const fs::path& database) {
+  const fs::path file = key_path(database);
+  std::error_code error;
+  if (database.empty() || !fs::exists(file, error)) return std::nullopt;
+  require_secret(file);
+  std::ifstream in(file);
+  if (!in) throw EnvironmentError(file.string() + ": the station's key cannot be read: " + std::strerror(errno));
+  std::string title, seed;
+  std::getline(in, title);
+  std::getline(in, seed);
+  const auto key = title == kTitle ? SigningKey::of_seed(seed) : std::nullopt;
+  if (!key) throw InputError(file.string() + ": is not the key of a station");
+  return key;
+}
+
+std::optional<SigningKey> station_key(sqlite3* connection) {
+  const char* file = sqlite3_db_filename(connection, "main");
+  return file == nullptr ? std::nullopt : station_key(fs::path(file));
+}
+
+SigningKey make_station_key(const fs::path& database) {
+  if (const auto there = station_key(database)) return *there;
+  const SigningKey key = SigningKey::make();
+  write_station_key(database, key);
+  return key;
+}
+
+void write_station_key(const fs::path& database, const SigningKey& key) {
+  const fs::path file = key_path(database);
+  std::ofstream out = open_owner_file(file);
+  out << kTitle << '\n' << key.seed() << '\n' << std::flush;
+  if (!out) {
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    throw EnvironmentError(file.string() + ": the station's key cannot be written: " + reason);
+  }
+}
+
+std::vector<AnnouncedKey> announced_keys(sqlite3* connection) {
+  std::vector<AnnouncedKey> out;
+  sql::Statement rows(connection,
+                      "SELECT 1, detail FROM audit WHERE position = 1 AND action = ?1 AND detail <> ''"
+                      " UNION ALL SELECT position, detail FROM audit WHERE subject = ?2 AND action = ?2 ORDER BY 1");
+  rows.bind(kActionMade).bind(kActionKey);
+  while (rows.step()) out.push_back({rows.integer(0), rows.text(1)});
+  return out;
+}
+
+}  // namespace trocar

@@ -1,0 +1,31 @@
+// Heads of the audit trail that are kept elsewhere, and the key that they are signed with: what shows a record that was
+// rewritten as a whole, every hash, anchor and key of it. Thread: that of the Database.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trainees/integrity/station_key.h"
+#include "trainees/store/database.h"
+
+namespace trocar {
+
+/// The newest entry as JSON: {"format", "position", "row_hash", "utc", "key", "signature"}; the last two are "" where
+/// the station has no key.
+std::string exported_head(const Database& database);
+
+/// Where the trail is not the one that an exported head was taken of, a line each. @throws InputError: the file is no
+/// exported head, or not as it was written.
+std::vector<std::string> check_witness(const Database& database, const std::filesystem::path& file);
+
+/// Public keys that the trail names, in order.
+std::vector<AnnouncedKey> station_keys(const Database& database);
+
+/// A new key, named in the trail; the old file stays beside it under its public key. @throws EnvironmentError.
+void renew_station_key(Database& database);
+
+/// First digits of a public key, as pages and prints show it.
+std::string key_words(const std::string& public_key);
+
+}  // namespace trocar
