@@ -22,12 +22,11 @@ bool cites(const Certificate& certificate, const std::string& attempt_uuid) {
 
 std::vector<CurveDecision> decisions_of_curve(Database& database, const AttemptResult& attempt) {
   sql::Statement rows(database.connection(),
-                      "SELECT a.uuid, o.uuid, o.author, o.printed, o.reason, o.utc, o.passed FROM attempt a"
-                      " JOIN verdict_override o ON o.id = (SELECT v.id FROM verdict_override v WHERE v.attempt_id = "
-                      "a.id ORDER BY v.uuid DESC"
-                      " LIMIT 1) WHERE a.trainee_id = (SELECT trainee_id FROM attempt WHERE uuid = ?) AND "
-                      "a.exercise_id = ? AND a.level = ?"
-                      " AND a.hand = ? AND a.ruleset_sha256 = ? ORDER BY a.id");
+                      "SELECT a.uuid, o.uuid, o.author, o.printed, o.reason, o.utc, o.passed FROM attempt a" +
+                          sql::decision() +
+                          " WHERE o.id IS NOT NULL AND a.trainee_id = (SELECT trainee_id FROM attempt WHERE uuid = ?) "
+                          "AND a.exercise_id = ? AND a.level = ?"
+                          " AND a.hand = ? AND a.ruleset_sha256 = ? ORDER BY a.id");
   rows.bind(attempt.uuid).bind(attempt.exercise_id).bind(attempt.level).bind(attempt.hand).bind(attempt.rubric_sha256);
   std::vector<CurveDecision> out;
   while (rows.step())
