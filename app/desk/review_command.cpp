@@ -1,6 +1,5 @@
 #include "app/desk/review_command.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -93,18 +92,11 @@ void make_demo(const std::filesystem::path& file, int jobs, std::ostream& err) {
   make_demo_cohort(made, find_assets());
 }
 
-/// The copy of a central record that the desk serves, for its owner alone: everybody's results are in it.
+/// The copy of a central record that the desk serves.
 std::filesystem::path copy_of_centre(const ReviewServeOptions& options, std::ostream& err) {
-  umask(077);
-  const std::filesystem::path file = options.database.empty() ? default_replica_path({options.from}) : options.database;
-  Database database = open_database(file, OpenMode::kCreate, err);
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(database.file().parent_path(), none)) {
-    if (!entry.path().filename().string().starts_with(database.file().filename().string())) continue;
-    std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write,
-                                 none);
-  }
-  return database.file();
+  return open_database(options.database.empty() ? default_replica_path({options.from}) : options.database,
+                       OpenMode::kCreate, err)
+      .file();
 }
 
 std::string host_name() {

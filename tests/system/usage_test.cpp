@@ -82,7 +82,7 @@ const std::map<std::string, Translator>& commands_about_people() {
       {"db", {"check", "backup", "migrate", "anchor", "rubric", "retention"}},
       {"db retention", {"--db", "--days", "--erase", "--training", "--author", "--yes"}},
       {"db check", {"--db", "--json"}},
-      {"db backup", {"--db", "--out"}},
+      {"db backup", {"--db", "--out", "--without-recordings"}},
       {"db migrate", {"--db"}},
       {"db anchor", {"--db"}},
       {"db rubric", {"--db"}}};
