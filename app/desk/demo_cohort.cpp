@@ -22,12 +22,12 @@
 #include "trainees/integrity/anchor_file.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kMark = "demo-cohort";
 
 constexpr const char* kOrgan = "phantom-liver";
 constexpr int kSpan_days = 63;
@@ -197,7 +197,7 @@ std::string mark_text(const std::vector<Planned>& planned) {
 void tell_demo(Database& database, const std::vector<Planned>& planned) {
   const Author author{"", "Demo"};
   CurriculumStore curricula(database);
-  curricula.add(kMark, mark_text(planned), author);
+  curricula.add(kDemoMark, mark_text(planned), author);
   for (const DemoPerson& person : demo_people()) curricula.join(person.code, person.group, author);
   add_demo_assessments(database, author);
 }
@@ -208,7 +208,7 @@ fs::path demo_database_beside(const fs::path& database) {
   return (database.empty() ? default_database_path() : database).parent_path() / "demo.db";
 }
 
-bool is_demo(Database& database) { return CurriculumStore(database).newest(kMark).has_value(); }
+bool is_demo(Database& database) { return is_demo_record(database); }
 
 int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets) {
   if (fs::exists(options.database)) throw InputError(options.database.string() + ": exists already");

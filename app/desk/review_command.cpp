@@ -225,6 +225,12 @@ int review_account_password(const ReviewAccountOptions& options, std::istream& i
   Database database = open_database(options.database, OpenMode::kExisting, err);
   AccountStore accounts(database);
   if (!accounts.find(options.login)) throw InputError("account \"" + options.login + "\": there is none");
+  if (options.own) {
+    const std::string present = present_password(options.login, in, err);
+    accounts.set_own_password(options.login, present, new_password(options.login, in, err));
+    err << options.login << ": your password is changed; whoever was signed in with it has to sign in again\n";
+    return 0;
+  }
   accounts.set_password(options.login, new_password(options.login, in, err), "");
   err << options.login << ": the password is changed; whoever was signed in with it has to sign in again\n";
   return 0;
@@ -303,6 +309,7 @@ void add_review_account(CLI::App& parent, CommandAction& chosen) {
   fresh->add_option("--trainee", o.trainee, "Code of the trainee whose account it is (default: the login)");
   CLI::App* password = add("password", "New password",
                            [given] { return review_account_password(*given, std::cin, std::cout, std::cerr); });
+  password->add_flag("--own", o.own, "Your own, by the present one, which is asked for first");
   CLI::App* disable = add("disable", "Can no longer sign in",
                           [given] { return review_account_disable(*given, true, std::cout, std::cerr); });
   CLI::App* enable = add("enable", "Can sign in again",

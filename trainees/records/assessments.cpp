@@ -14,6 +14,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
 #include "trainees/records/rating_scales.h"
+#include "trainees/records/signing.h"
 #include "trainees/records/verdicts.h"
 
 namespace trocar {
@@ -267,6 +268,7 @@ Signature AssessmentStore::sign(const std::string& attempt_uuid, const std::stri
   if (!note.empty()) check_prose("signature's note", note);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
   if (!attempt_holds(connection, attempt.id)) {
     throw InputError("attempt " + attempt_uuid +
@@ -315,6 +317,7 @@ VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uui
   AnchoredTransaction transaction(*database_);
   const VerdictOverride verdict{
       next_row_uuid(connection, "verdict_override"), author.account_uuid, author.printed, reason, utc_now(), passed};
+  require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
   if (attempt.ended_by_device) {
     throw InputError("attempt " + attempt_uuid +
@@ -366,6 +369,7 @@ Certificate AssessmentStore::certify(const std::string& trainee, const std::stri
                                 author.account_uuid,
                                 author.printed,
                                 utc_now()};
+  require_signature(*database_, author.account_uuid);
   const std::int64_t id = trainee_id(connection, trainee);
   {
     sql::Statement known(connection, "SELECT 1 FROM exercise WHERE id = ?");
@@ -389,6 +393,7 @@ void AssessmentStore::revoke(const std::string& certificate_uuid, const std::str
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_signature(*database_, author.account_uuid);
   const std::string uuid = next_row_uuid(connection, "revocation");
   {
     sql::Statement known(

@@ -25,7 +25,7 @@ class Verdicts : public testing::Test {
     return store_attempt(database_, start, result);
   }
   void decide(const AttemptId& id, bool passed, const std::string& by = "Dr B") {
-    assessments_.override_verdict(id.uuid, passed, kReason, {"", by});
+    assessments_.override_verdict(id.uuid, passed, kReason, {"0192-b", by});
   }
   AttemptSummary summary(const AttemptId& id) { return store_.find(id.uuid); }
 
@@ -159,7 +159,7 @@ TEST_F(Verdicts, ACertificateCitesNoAttemptThatIsNotPassed) {
   const AttemptId good = attempt(90), other = store_attempt(database_, sample_start("T-2"), sample_result(90));
   const auto certify = [&](const AttemptId& id) {
     return message_of<InputError>([&] {
-      assessments_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"", "Dr B"});
+      assessments_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"0192-b", "Dr B"});
     });
   };
   decide(good, false, "Dr A");

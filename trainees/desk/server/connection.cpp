@@ -35,7 +35,8 @@ std::optional<sockaddr_in> end_of(int socket, bool remote) {
 long plain_some(int socket, bool writing, char* data, std::size_t count) {
   const ssize_t done = writing ? ::send(socket, data, count, MSG_NOSIGNAL) : ::recv(socket, data, count, 0);
   if (done >= 0) return static_cast<long>(done);
-  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return writing ? Connection::kAgainToWrite : Connection::kAgainToRead;
+  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)
+    return writing ? Connection::kAgainToWrite : Connection::kAgainToRead;
   return -1;
 }
 

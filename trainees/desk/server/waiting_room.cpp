@@ -250,8 +250,7 @@ WaitingRoom::WaitingRoom(const RoomLimits& limits, Serve serve)
 WaitingRoom::~WaitingRoom() = default;
 
 void WaitingRoom::enter(std::shared_ptr<Connection> connection) {
-  Guest guest{std::move(connection), "", State::kGreeting,
-              Clock::now() + milliseconds(room_->limits.request.head_ms)};
+  Guest guest{std::move(connection), "", State::kGreeting, Clock::now() + milliseconds(room_->limits.request.head_ms)};
   guest.address = guest.connection->remote_address();
   {
     const std::scoped_lock lock(room_->mutex);
