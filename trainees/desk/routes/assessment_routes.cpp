@@ -29,6 +29,7 @@ Response on_attempt(const Request& request, Desk& desk, const std::string& form,
                     const std::function<Response(const std::string& uuid)>& act) {
   const std::string uuid = commented_attempt(request, desk);
   try {
+    if (request.disk_full) throw DiskFull(kDiskFull);
     return act(uuid);
   } catch (const InputError& error) {
     return {.status = 400,
@@ -54,6 +55,7 @@ Response on_trainee(const Request& request, Desk& desk, const std::string& code,
   Request asked = request;
   asked.arguments["code"] = code;
   try {
+    if (request.disk_full) throw DiskFull(kDiskFull);
     act();
   } catch (const InputError& error) {
     return {.status = 400,
@@ -157,9 +159,11 @@ Route assessment_form(const std::string& path, const std::string& kind, const st
 using Action = Response (*)(const Request&, Desk&);
 
 Route post(const std::string& path, Action action) {
-  return {"POST", path, Audience::kInstructors, [action](const Request& request, Desk& desk) {
-            return answered(request, desk, 400, [&] { return action(request, desk); });
-          }};
+  Route out{"POST", path, Audience::kInstructors, [action](const Request& request, Desk& desk) {
+              return answered(request, desk, 400, [&] { return action(request, desk); });
+            }};
+  out.keeps_form = true;
+  return out;
 }
 
 Route signed_post(const std::string& path, Action action) {

@@ -37,6 +37,8 @@ struct Request {
   /// Of a route that asks for the password again: why what was given with the form does not count; "" when it does, and
   /// where nobody signs in.
   std::string unconfirmed = {};
+  /// Nothing can be written, not even that who posts came; only a route with keeps_form sees this.
+  bool disk_full = false;
 };
 
 struct Response {
@@ -128,6 +130,7 @@ struct Route {
   Audience audience = Audience::kInstructors;
   std::function<Response(const Request&, Desk&)> answer;
   bool asks_password = false;  ///< of a form: once more, in the field "password"
+  bool keeps_form = false;     ///< answers with the form as it was sent when the disk is full
 };
 
 /// All pages (routes.cpp gathers those of each page's source).

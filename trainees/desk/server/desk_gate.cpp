@@ -168,7 +168,7 @@ Answer DeskGate::page(RequestContext& context) {
   const bool staff = context.request.account && context.request.account->role != Role::kTrainee;
   const std::string what = context.incoming.head.method + " " + context.incoming.head.path.substr(0, 200);
   try {
-    if (context.posts()) record_late(context);
+    if (context.posts()) context.request.disk_full = !recorded_late(context);
     Answer out{.response = context.found.route->answer(context.request, context.desk)};
     const int status = out.response.status;
     if (status < 200 || status > 599 || !header_value(out.response.type))

@@ -72,7 +72,7 @@ class DeskGate {
   Try try_password(RequestContext& context, const std::string& login, const std::string& password);
   void confirm(RequestContext& context);
   void renew_session(RequestContext& context);
-  void record_late(RequestContext& context);
+  bool recorded_late(RequestContext& context);
   Answer sign_out(RequestContext& context);
   Answer ask_to_sign_in(RequestContext& context, int status, const std::string& message, const std::string& login,
                         const std::string& next);

@@ -158,11 +158,18 @@ void DeskGate::confirm(RequestContext& context) {
 }
 
 /// Whoever came while the disk was full is put on record before anything is written in their name.
-void DeskGate::record_late(RequestContext& context) {
+/// @returns false: it still is full, and the route gives the form back. @throws DiskFull where the route cannot.
+bool DeskGate::recorded_late(RequestContext& context) {
   const auto session = sessions_.find(context.number, context.now);
-  if (!session || session->recorded) return;
-  AccountStore(context.desk.database).signed_in(session->account);
+  if (!session || session->recorded) return true;
+  try {
+    AccountStore(context.desk.database).signed_in(session->account);
+  } catch (const DiskFull&) {
+    if (!context.found.route->keeps_form) throw;
+    return false;
+  }
   sessions_.mark_recorded(context.number);
+  return true;
 }
 
 /// A new password ends every sign-in of the account but the one that set it.
