@@ -18,11 +18,13 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
 #include "scenarios/layout/board_numbers.h"
+#include "trainees/files/owner_file.h"
 #include "trainees/integrity/anchor_file.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/progress/calendar.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/demo_record.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -162,7 +164,7 @@ void store_all(std::vector<Planned>& planned, Database& database) {
   AttemptStore store(database);
   for (Planned& one : planned) {
     const AttemptId id = store.begin_attempt(one.start);
-    fs::create_directories(id.recording.parent_path());
+    make_owner_folders(id.recording.parent_path());
     fs::rename(one.recording, id.recording);
     const AttemptResult result = kept_result(one.start, id, one.outcome, *one.record);
     store.finish_attempt(id, result, ended(id.started_utc, result.device));

@@ -40,6 +40,15 @@ std::string line_of(std::istream& in, const std::string& login) {
 
 }  // namespace
 
+std::string present_password(const std::string& login, std::istream& in, std::ostream& err) {
+  if (&in != &std::cin || ::isatty(STDIN_FILENO) == 0) return line_of(in, login);
+  const Unseen unseen;
+  err << "Present password of " << login << ": " << std::flush;
+  const std::string present = line_of(in, login);
+  err << '\n';
+  return present;
+}
+
 std::string new_password(const std::string& login, std::istream& in, std::ostream& err) {
   if (&in != &std::cin || ::isatty(STDIN_FILENO) == 0) return line_of(in, login);
   const Unseen unseen;

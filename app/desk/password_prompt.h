@@ -11,4 +11,7 @@ namespace trocar {
 /// two different ones.
 std::string new_password(const std::string& login, std::istream& in, std::ostream& err);
 
+/// The same of the present one, which is asked for once.
+std::string present_password(const std::string& login, std::istream& in, std::ostream& err);
+
 }  // namespace trocar

@@ -1,6 +1,5 @@
 #include "app/desk/review_command.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -94,18 +93,11 @@ void make_demo(const std::filesystem::path& file, int jobs, std::ostream& err) {
   make_demo_cohort(made, find_assets());
 }
 
-/// The copy of a central record that the desk serves, for its owner alone: everybody's results are in it.
+/// The copy of a central record that the desk serves.
 std::filesystem::path copy_of_centre(const ReviewServeOptions& options, std::ostream& err) {
-  umask(077);
-  const std::filesystem::path file = options.database.empty() ? default_replica_path({options.from}) : options.database;
-  Database database = open_database(file, OpenMode::kCreate, err);
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(database.file().parent_path(), none)) {
-    if (!entry.path().filename().string().starts_with(database.file().filename().string())) continue;
-    std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write,
-                                 none);
-  }
-  return database.file();
+  return open_database(options.database.empty() ? default_replica_path({options.from}) : options.database,
+                       OpenMode::kCreate, err)
+      .file();
 }
 
 std::string host_name() {
@@ -244,6 +236,12 @@ int review_account_password(const ReviewAccountOptions& options, std::istream& i
   Database database = open_database(options.database, OpenMode::kExisting, err);
   AccountStore accounts(database);
   if (!accounts.find(options.login)) throw InputError("account \"" + options.login + "\": there is none");
+  if (options.own) {
+    const std::string present = present_password(options.login, in, err);
+    accounts.set_own_password(options.login, present, new_password(options.login, in, err));
+    err << options.login << ": your password is changed; whoever was signed in with it has to sign in again\n";
+    return 0;
+  }
   accounts.set_password(options.login, new_password(options.login, in, err), "");
   err << options.login << ": the password is changed; whoever was signed in with it has to sign in again\n";
   return 0;
@@ -322,6 +320,7 @@ void add_review_account(CLI::App& parent, CommandAction& chosen) {
   fresh->add_option("--trainee", o.trainee, "Code of the trainee whose account it is (default: the login)");
   CLI::App* password = add("password", "New password",
                            [given] { return review_account_password(*given, std::cin, std::cout, std::cerr); });
+  password->add_flag("--own", o.own, "Your own, by the present one, which is asked for first");
   CLI::App* disable = add("disable", "Can no longer sign in",
                           [given] { return review_account_disable(*given, true, std::cout, std::cerr); });
   CLI::App* enable = add("enable", "Can sign in again",

@@ -39,9 +39,11 @@ struct ReviewAccountOptions {
   std::string role = "trainee";
   std::string trainee = {};  ///< code, of a trainee's account; empty: the login
   bool json = false;         ///< of list
+  bool own = false;          ///< of password: by its owner, who knows the present one
 };
 
-/// Passwords are asked for at the terminal, twice and unseen; from elsewhere the first line of `in` is taken. @return
+/// Passwords are asked for at the terminal, twice and unseen; from elsewhere lines of `in` are taken, the present one
+/// first where it is asked for. @return
 /// exit code 0
 int review_account_add(const ReviewAccountOptions& options, std::istream& in, std::ostream& out, std::ostream& err);
 int review_account_password(const ReviewAccountOptions& options, std::istream& in, std::ostream& out,

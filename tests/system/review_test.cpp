@@ -94,9 +94,9 @@ TEST_F(Review, KeepsAccounts) {
   EXPECT_EQ(add_account("ines", "instructor", "correct horse battery").exit_code, 2) << "taken";
   EXPECT_EQ(add_account("kim", "instructor", "short").exit_code, 2);
   EXPECT_EQ(add_account("kim", "king", "correct horse battery").exit_code, 2);
-  EXPECT_EQ(add_account("T01", "trainee", "246810").exit_code, 2) << "no such trainee";
+  EXPECT_EQ(add_account("T01", "trainee", "580274").exit_code, 2) << "no such trainee";
   EXPECT_EQ(trocar({"trainee", "add", "T01", "--db", "desk.db"}).exit_code, 0);
-  EXPECT_EQ(add_account("T01", "trainee", "246810").exit_code, 0);
+  EXPECT_EQ(add_account("T01", "trainee", "580274").exit_code, 0);
   EXPECT_EQ(trocar({"review", "account", "disable", "ines", "--db", "desk.db"}).exit_code, 2)
       << "nobody would be left to let people in";
   EXPECT_EQ(add_account("omar", "administrator", "correct horse battery").exit_code, 0);

@@ -79,11 +79,28 @@ TEST_F(Store, CohortAndTraineeSayWhatTheRulesFind) {
 
 TEST_F(Store, ABackupIsADatabaseOfItsOwn) {
   const Json run = json_of(short_run({"--db", "t.db", "--trainee", "T-1"}), 1);
-  EXPECT_EQ(trocar({"db", "backup", "--db", "t.db", "--out", "b.db"}).exit_code, 0);
+  const Outcome made = trocar({"db", "backup", "--db", "t.db", "--out", "b.db"});
+  EXPECT_EQ(made.exit_code, 0);
+  EXPECT_NE(made.err.find("b.recordings: 1 recordings, "), std::string::npos) << made.err;
+  std::filesystem::remove_all(folder_ / "t.recordings");
   EXPECT_EQ(json_of({"trainee", "show", "T-1", "--db", "b.db", "--json"}, 0)["history"][0]["uuid"],
             run["attempt"]["uuid"]);
   EXPECT_EQ(trocar({"db", "check", "--db", "b.db"}).exit_code, 0);
   EXPECT_NE(trocar({"db", "migrate", "--db", "b.db"}).out.find("up to date"), std::string::npos);
+}
+
+TEST_F(Store, WhatStoodOpenToOthersIsClosedAndSaidOnce) {
+  namespace fs = std::filesystem;
+  EXPECT_EQ(trocar(short_run({"--db", "t.db", "--trainee", "T-1"})).exit_code, 1);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "t.recordings"))
+    EXPECT_EQ(entry.status().permissions(), fs::perms(0600));
+  EXPECT_EQ(fs::status(folder_ / "t.recordings").permissions(), fs::perms(0700));
+  fs::permissions(folder_ / "t.db", fs::perms(0644));
+  fs::permissions(folder_ / "t.recordings", fs::perms(0755));
+  const std::string words = "t.db: 2 of its files and folders could be opened by other users";
+  EXPECT_NE(trocar({"trainee", "list", "--db", "t.db"}).err.find(words), std::string::npos);
+  EXPECT_EQ(fs::status(folder_ / "t.db").permissions(), fs::perms(0600));
+  EXPECT_EQ(trocar({"trainee", "list", "--db", "t.db"}).err, "");
 }
 
 TEST_F(Store, ATamperedDatabaseIsFound) {

@@ -84,7 +84,7 @@ const std::map<std::string, Translator>& commands_about_people() {
       {"db check", {"--db", "--json", "--quick", "--witness"}},
       {"db key", {"--db", "--renew"}},
       {"db head", {"--db", "--export"}},
-      {"db backup", {"--db", "--out"}},
+      {"db backup", {"--db", "--out", "--without-recordings"}},
       {"db migrate", {"--db"}},
       {"db anchor", {"--db"}},
       {"db rubric", {"--db"}}};

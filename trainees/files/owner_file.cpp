@@ -9,11 +9,11 @@
 namespace trocar {
 namespace {
 
-constexpr mode_t kFile = 0600, kFolder = 0700;
+constexpr mode_t kFile = 0600, kFolder = 0700, kOthers = 0077;
 
 /// A pipe or terminal keeps its rights; a file system without any (FAT) has none to keep.
-bool made(const std::filesystem::path& file, int flags) {
-  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOCTTY | flags, kFile);
+bool made(const std::filesystem::path& file) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOCTTY, kFile);
   if (opened < 0) return false;
   struct stat about {};
   if (::fstat(opened, &about) == 0 && S_ISREG(about.st_mode)) [[maybe_unused]]
@@ -26,14 +26,17 @@ bool made(const std::filesystem::path& file, int flags) {
 
 std::ofstream open_owner_file(const std::filesystem::path& file) {
   std::ofstream stream;
-  if (made(file, 0))
+  if (made(file))
     stream.open(file, std::ios::binary | std::ios::trunc);
   else
     stream.setstate(std::ios::failbit);
   return stream;
 }
 
-bool make_owner_file(const std::filesystem::path& file) { return made(file, O_EXCL); }
+bool make_owner_file(const std::filesystem::path& file) {
+  // Not opened: closing a database's file drops the locks (POSIX) of every connection that this program has to it.
+  return ::mknod(file.c_str(), S_IFREG | kFile, 0) == 0 && ::chmod(file.c_str(), kFile) == 0;
+}
 
 bool make_owner_folders(const std::filesystem::path& folder) {
   std::error_code error;
@@ -42,6 +45,18 @@ bool make_owner_folders(const std::filesystem::path& folder) {
     return false;
   if (::mkdir(folder.c_str(), kFolder) != 0) return errno == EEXIST && std::filesystem::is_directory(folder, error);
   return ::chmod(folder.c_str(), kFolder) == 0;
+}
+
+bool open_to_others(const std::filesystem::path& file) {
+  struct stat about {};
+  return ::stat(file.c_str(), &about) == 0 && about.st_uid == ::geteuid() && (about.st_mode & kOthers) != 0 &&
+         (S_ISREG(about.st_mode) || S_ISDIR(about.st_mode));
+}
+
+void close_to_others(const std::filesystem::path& file) {
+  struct stat about {};
+  if (open_to_others(file) && ::stat(file.c_str(), &about) == 0) [[maybe_unused]]
+    const int narrowed = ::chmod(file.c_str(), about.st_mode & 07777 & ~kOthers);
 }
 
 }  // namespace trocar

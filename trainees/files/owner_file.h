@@ -17,4 +17,10 @@ bool make_owner_file(const std::filesystem::path& file);
 /// errno says why not.
 bool make_owner_folders(const std::filesystem::path& folder);
 
+/// A file or folder of this program's user that others may open in any way; links are followed.
+bool open_to_others(const std::filesystem::path& file);
+
+/// Takes the rights of others away from such a one.
+void close_to_others(const std::filesystem::path& file);
+
 }  // namespace trocar

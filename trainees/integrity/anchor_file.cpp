@@ -46,7 +46,7 @@ fs::path anchor_path(const fs::path& database) { return database.string() + ".an
 void append_anchor(const fs::path& database, const AuditHead& head) {
   if (database.empty()) return;
   std::string line = std::to_string(head.position) + " " + head.row_hash + " " + utc_now() + "\n";
-  const int file = ::open(anchor_path(database).c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const int file = ::open(anchor_path(database).c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
   if (file < 0) return;
   char last = '\n';
   const off_t size = ::lseek(file, 0, SEEK_END);

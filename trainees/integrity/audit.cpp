@@ -106,6 +106,25 @@ std::string audit_action(sqlite3* connection, std::int64_t position) {
   return field_at(connection, "SELECT action FROM audit WHERE position = ?", position);
 }
 
+std::vector<ClockSetBack> clock_set_back(sqlite3* connection) {
+  std::vector<ClockSetBack> out;
+  sql::Statement rows(connection,
+                      "SELECT position, before, utc FROM (SELECT position, utc, lag(utc) OVER (ORDER BY position) AS"
+                      " before FROM audit) WHERE utc < before AND (julianday(before) - julianday(utc)) * 86400 > ?"
+                      " ORDER BY position");
+  rows.bind(kClockStep_s);
+  while (rows.step()) out.push_back({rows.integer(0), rows.text(1), rows.text(2)});
+  return out;
+}
+
+std::vector<std::string> audit_remarks(sqlite3* connection) {
+  std::vector<std::string> out;
+  for (const ClockSetBack& step : clock_set_back(connection))
+    out.push_back("the clock was set back before entry " + std::to_string(step.position) + ", from " + step.before_utc +
+                  " to " + step.utc + ": entries and decisions hold in their order, whatever times they bear");
+  return out;
+}
+
 std::vector<std::string> check_audit(sqlite3* connection) {
   std::vector<std::string> problems;
   check_links(connection, problems);

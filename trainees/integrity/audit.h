@@ -44,6 +44,19 @@ std::string head_text(const std::string& row_hash);
 std::string audit_hash(sqlite3* connection, std::int64_t position);
 std::string audit_action(sqlite3* connection, std::int64_t position);
 
+/// An entry of an earlier time than the one before it: the clock was set back in between.
+struct ClockSetBack {
+  std::int64_t position = 0;  ///< of the later entry
+  std::string before_utc, utc;
+};
+
+/// Steps of more than kClockStep_s (s): smaller ones are what keeps clocks right.
+inline constexpr double kClockStep_s = 2;
+std::vector<ClockSetBack> clock_set_back(sqlite3* connection);
+
+/// What is worth knowing and no problem, one line each: where the clock was set back.
+std::vector<std::string> audit_remarks(sqlite3* connection);
+
 /// Problems of the trail and between trail and attempts, one line each.
 std::vector<std::string> check_audit(sqlite3* connection);
 

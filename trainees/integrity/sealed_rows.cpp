@@ -5,6 +5,7 @@
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -136,6 +137,20 @@ const std::vector<std::string>& sealed_tables() {
     return names;
   }();
   return kNames;
+}
+
+std::string next_row_uuid(sqlite3* connection, const std::string& table) {
+  return make_uuid_after(sql::query_text(connection, "SELECT coalesce(max(uuid), '') FROM " + table));
+}
+
+std::string newest_first(const std::string& table, const std::string& row, const std::string& of) {
+  // What was written here was written after all that stood here: it counts as if it had the greatest UUID of these.
+  // That of a program's own is so by itself; rows of older programs and a clock that was set back are not.
+  const std::string entry = ".subject = " + row + ".uuid AND n.action = '" + table + " added'";
+  return " ORDER BY (SELECT CASE n.actor WHEN '" + std::string(kFromCentre) + "' THEN " + row +
+         ".uuid ELSE (SELECT max(w.uuid) FROM " + table + " w JOIN audit m ON m.subject = w.uuid AND m.action = '" +
+         table + " added' WHERE w." + of + " = " + row + "." + of + " AND m.position <= n.position) END FROM audit n" +
+         " WHERE n" + entry + ") DESC, (SELECT n.position FROM audit n WHERE n" + entry + ") DESC";
 }
 
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid) {

@@ -6,7 +6,8 @@
 // stand by their UUID). A changed, exchanged or removed row, and one that got in by another way, shows when all digests
 // are computed again. A row that went with its person has an entry "TABLE erased" with the erasure's UUID. Accounts can
 // change: every change has an entry "account ..." with the digest of what it left, and the newest must be that of the
-// row. Row numbers mean nothing: newest is by UUID.
+// row. Row numbers mean nothing. What is newest the trail says, and UUIDs follow it: no clock that was set back makes a
+// later word an earlier one (newest_first(), next_row_uuid()).
 #pragma once
 
 #include <string>
@@ -19,6 +20,18 @@ namespace trocar {
 
 /// Tables whose rows are sealed, in the order in which they may refer to one another.
 const std::vector<std::string>& sealed_tables();
+
+/// Actor of the entries of rows that came from a central database.
+inline constexpr const char* kFromCentre = "centre";
+
+/// A UUID for a new row, greater than that of every row of the table that is here. Call inside the transaction that
+/// inserts the row.
+std::string next_row_uuid(sqlite3* connection, const std::string& table);
+
+/// SQL " ORDER BY ..." that has the newest row first: of those written here the one whose entry in the trail is the
+/// last; of those that came from elsewhere, whose order nobody here saw, the greatest UUID, which is the same in every
+/// database. @param row alias of the table. @param of column that says what rows are compared.
+std::string newest_first(const std::string& table, const std::string& row, const std::string& of);
 
 /// Puts the row with that UUID into the audit trail. Call inside the transaction that inserts it.
 /// @param author account's UUID, "" from the command line.

@@ -146,6 +146,15 @@ int decided_of(const Attempts& attempts, int n) {
   return static_cast<int>(std::count_if(newest, attempts.end(), [](const CurveAttempt& a) { return a.decided; }));
 }
 
+Judgement certified(const Attempts& tried, const ProgressRules& rules, const std::string& utc) {
+  const auto passes = std::count_if(tried.begin(), tried.end(), [](const CurveAttempt& a) { return a.passed; });
+  const int n = static_cast<int>(tried.size());
+  return {Flag::kCertified,
+          "certified " + utc.substr(0, 10) + "; " + number(static_cast<int>(passes)) + " of " +
+              counted(n, "attempt", "attempts") + " passed",
+          n, rules.version};
+}
+
 std::string learning_text(const Attempts& tried, const std::vector<CusumPoint>& points, const ProgressRules& rules) {
   const auto passes = std::count_if(tried.begin(), tried.end(), [](const CurveAttempt& a) { return a.passed; });
   const Competence competence = competence_of(points);
@@ -164,6 +173,8 @@ const char* flag_name(Flag flag) {
       return "unsafe";
     case Flag::kRelapsed:
       return "relapsed";
+    case Flag::kInQuestion:
+      return "in question";
     case Flag::kStuck:
       return "stuck";
     case Flag::kPlateau:
@@ -174,6 +185,8 @@ const char* flag_name(Flag flag) {
       return "retention due";
     case Flag::kReady:
       return "ready";
+    case Flag::kCertified:
+      return "certified";
     case Flag::kLearning:
       return "learning";
   }
@@ -181,8 +194,8 @@ const char* flag_name(Flag flag) {
 }
 
 std::optional<Flag> flag_named(const std::string& name) {
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
-                          Flag::kRetentionDue, Flag::kReady, Flag::kLearning})
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kPlateau,
+                          Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kLearning})
     if (name == flag_name(flag)) return flag;
   return std::nullopt;
 }
@@ -197,7 +210,8 @@ std::optional<double> reliability(const std::vector<double>& scores, double betw
 }
 
 std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rules, std::optional<double> reliable,
-                             const std::string& certified_utc, const std::string& now_utc) {
+                             const std::string& certified_utc, const std::string& now_utc,
+                             const std::string& in_question) {
   Attempts tried;
   std::vector<bool> passed;
   for (const CurveAttempt& attempt : attempts) {
@@ -213,11 +227,15 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
   };
   const bool harmful = add(unsafe(tried, rules));
   add(relapsed(points, rules));
+  if (!in_question.empty())
+    out.push_back({Flag::kInQuestion, "certificate of " + certified_utc.substr(0, 10) + ": " + in_question,
+                   static_cast<int>(tried.size()), rules.version});
   add(stuck(tried, rules));
   add(flat(tried, rules));
   const bool unsound = add(integrity(attempts, rules));
   add(retention_due(tried, rules, certified_utc, now_utc));
   add(ready(points, rules, reliable, !harmful && !unsound, certified_utc));
+  if (out.empty() && !certified_utc.empty()) out.push_back(certified(tried, rules, certified_utc));
   if (out.empty())
     out.push_back(
         {Flag::kLearning, learning_text(tried, points, rules), static_cast<int>(tried.size()), rules.version});
@@ -230,7 +248,8 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
 
 std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety,
                              const ProgressRules& rules, std::optional<double> reliable,
-                             const std::string& certified_utc, const std::string& now_utc) {
+                             const std::string& certified_utc, const std::string& now_utc,
+                             const std::string& in_question) {
   std::map<std::string, const SafetyRecord*> records;
   for (const SafetyRecord& record : safety) records[record.uuid] = &record;
   const auto started = [](const std::string& utc) { return seconds_of_utc(utc).value_or(0); };
@@ -252,7 +271,7 @@ std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<Safet
           {started(record->started_utc), {}, false, record->critical_events, record->failed_gates, true, false, false});
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const CurveAttempt& a, const CurveAttempt& b) { return a.started_s < b.started_s; });
-  return judge(attempts, rules, reliable, certified_utc, now_utc);
+  return judge(attempts, rules, reliable, certified_utc, now_utc, in_question);
 }
 
 }  // namespace trocar

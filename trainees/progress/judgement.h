@@ -18,12 +18,14 @@ namespace trocar {
 enum class Flag : std::uint8_t {
   kUnsafe,        ///< critical events or failed safety gates among the newest attempts
   kRelapsed,      ///< the CUSUM of failures alarmed after competence had been shown
+  kInQuestion,    ///< a certificate's attempts no longer count as they did when it was given
   kStuck,         ///< so many attempts without a pass
   kPlateau,       ///< scores no longer rise and the pass mark is not reached
   kIntegrity,     ///< void attempts, late device loop: what was counted may not be a measurement
   kRetentionDue,  ///< a certificate's attempt for keeping is due
   kReady,         ///< LC-CUSUM shown, reliable enough, no flag of safety: ready for a person's decision
-  kLearning,      ///< none of these
+  kCertified,     ///< a certificate is held, and none of these
+  kLearning,      ///< none of these, and no certificate
 };
 const char* flag_name(Flag flag);  ///< "unsafe", "relapsed", ...
 std::optional<Flag> flag_named(const std::string& name);
@@ -64,16 +66,18 @@ std::optional<double> reliability(const std::vector<double>& scores, double betw
 /// "0.84"; "over 0.99" where two decimals would say that nothing can be doubted.
 std::string reliability_words(double reliability);
 
-/// All that hold, gravest first; kLearning alone when none does. @param safety by attempt; attempts without one count
-/// as safe.
-/// @param certified_utc of a certificate that holds, "" without.
+/// All that hold, gravest first; kCertified or kLearning alone when none does. @param safety by attempt; attempts
+/// without one count as safe.
+/// @param certified_utc of a certificate that is held, "" without. @param in_question why it may not stand, "" while it
+/// does (trainees/records/certificate_standing.h).
 std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety,
                              const ProgressRules& rules, std::optional<double> reliability,
-                             const std::string& certified_utc, const std::string& now_utc);
+                             const std::string& certified_utc, const std::string& now_utc,
+                             const std::string& in_question = "");
 
 /// The same over attempts oldest first.
 std::vector<Judgement> judge(const std::vector<CurveAttempt>& attempts, const ProgressRules& rules,
                              std::optional<double> reliability, const std::string& certified_utc,
-                             const std::string& now_utc);
+                             const std::string& now_utc, const std::string& in_question = "");
 
 }  // namespace trocar

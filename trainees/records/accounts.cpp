@@ -9,13 +9,13 @@
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/password_rules.h"
 #include "trainees/records/printed_text.h"
 
 namespace trocar {
 namespace {
 
-constexpr std::size_t kShortestLogin = 2, kLongestLogin = 32, kShortestPassword = 10, kLongestPassword = 1024,
-                      kPinDigits = 6;
+constexpr std::size_t kShortestLogin = 2, kLongestLogin = 32, kLongestPassword = 1024;
 
 /// Of a password that nobody knows, at the cost of the others: a login that does not exist takes as long.
 constexpr const char* kNobody =
@@ -40,17 +40,6 @@ void check_login(const std::string& login) {
       std::all_of(login.begin(), login.end(), allowed))
     return;
   throw InputError("login: give 2 to 32 letters, digits, '.', '-' or '_'");
-}
-
-void check_password(const std::string& password, Role role) {
-  if (password.size() > kLongestPassword) throw InputError("password: give no more than 1024 characters");
-  const auto characters =
-      std::count_if(password.begin(), password.end(), [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
-  if (static_cast<std::size_t>(characters) >= kShortestPassword) return;
-  const bool pin = password.size() == kPinDigits && std::all_of(password.begin(), password.end(), digit);
-  if (pin && role == Role::kTrainee) return;
-  throw InputError(role == Role::kTrainee ? "password: give at least 10 characters, or a PIN of 6 digits"
-                                          : "password: give at least 10 characters");
 }
 
 std::string hashed(const std::string& password) {
@@ -126,7 +115,7 @@ Account AccountStore::add(const std::string& login, const std::string& name, Rol
                           const std::string& password, const std::string& author) {
   check_login(login);
   check_printed("name", name);
-  check_password(password, role);
+  check_password(password, role, login);
   if ((role == Role::kTrainee) == trainee_code.empty()) {
     throw InputError(role == Role::kTrainee ? "account: say whose it is by the trainee's code"
                                             : "account: only a trainee's has a trainee code");
@@ -150,7 +139,7 @@ Account AccountStore::add(const std::string& login, const std::string& name, Rol
 }
 
 void AccountStore::set_password(const std::string& login, const std::string& password, const std::string& author) {
-  check_password(password, required(find(login), login).role);
+  check_password(password, required(find(login), login).role, login);
   const std::string hash = hashed(password);
   AnchoredTransaction transaction(*database_);
   const Account account = required(find(login), login);
@@ -160,6 +149,13 @@ void AccountStore::set_password(const std::string& login, const std::string& pas
       .run();
   seal_account(database_->connection(), "account password", account.uuid, author);
   transaction.commit();
+}
+
+void AccountStore::set_own_password(const std::string& login, const std::string& present, const std::string& fresh) {
+  const auto account = verify(login, present);
+  if (!account) throw InputError("account \"" + login + "\": the present password is wrong; nothing was changed");
+  if (fresh == present) throw InputError("password: this is the present one; take another");
+  set_password(login, fresh, account->uuid);
 }
 
 void AccountStore::set_disabled(const std::string& login, bool disabled, const std::string& author) {

@@ -30,13 +30,16 @@ class AccountStore {
 
   /// @param name as it is printed, 1 to 100 bytes without control characters.
   /// @param login 2 to 32 letters, digits, '.', '-' or '_'. @param trainee_code of a trainee's account; it must exist.
-  /// @param password 10 to 1024 characters, or a PIN of 6 digits for trainees. @param author account's UUID, "" from
-  /// the command line.
-  /// @throws InputError: taken, too short, no such trainee.
+  /// @param password 10 to 1024 characters, or a PIN of 6 digits for trainees (password_rules.h). @param author
+  /// account's UUID, "" from the command line.
+  /// @throws InputError: taken, too short or too easily guessed, no such trainee.
   Account add(const std::string& login, const std::string& name, Role role, const std::string& trainee_code,
               const std::string& password, const std::string& author);
-  /// @throws InputError: no such account, too short.
+  /// @throws InputError: no such account, too short or too easily guessed.
   void set_password(const std::string& login, const std::string& password, const std::string& author);
+  /// By its owner, who knows the present one: only then is it nobody else's (signing.h).
+  /// @throws InputError: as above; the present one is wrong, or the new one is the same.
+  void set_own_password(const std::string& login, const std::string& present, const std::string& fresh);
   /// An administrator is disabled only while another one can sign in, an instructor only while another instructor or
   /// administrator can.
   /// @throws InputError: no such account, the last of these.

@@ -14,6 +14,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
 #include "trainees/records/rating_scales.h"
+#include "trainees/records/signing.h"
 #include "trainees/records/verdicts.h"
 
 namespace trocar {
@@ -53,7 +54,7 @@ std::int64_t attempt_of(sqlite3* connection, std::int64_t trainee, const std::st
 
 /// Inside a transaction. @param rating its uuid is made here.
 void insert_rating(sqlite3* connection, const std::string& attempt_uuid, const Rating& rating) {
-  const std::string uuid = make_uuid();
+  const std::string uuid = next_row_uuid(connection, "rating");
   sql::Statement insert(connection,
                         "INSERT INTO rating (uuid, attempt_id, account_uuid, rater, scale, item, value, utc)"
                         " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
@@ -81,7 +82,7 @@ void check_cited(sqlite3* connection, std::int64_t trainee, const std::string& e
   sql::Statement row(connection, std::string("SELECT a.trainee_id, ") + sql::kPassed +
                                      ", coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a"
                                      " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
-                                     sql::kDecision + " WHERE a.uuid = ?");
+                                     sql::decision() + " WHERE a.uuid = ?");
   if (!row.bind(uuid).step() || row.integer(0) != trainee)
     throw InputError("certificate: attempt " + uuid + " is none of this trainee's");
   if (row.integer(1) != 0) return;
@@ -137,7 +138,8 @@ Note write_note(sqlite3* connection, const std::string& trainee, const std::stri
                 const std::string& text, const Author& author) {
   check_prose("note", text);
   check_printed("author", author.printed);
-  const Note note{make_uuid(), trainee, attempt_uuid, author.account_uuid, author.printed, text, utc_now()};
+  const Note note{
+      next_row_uuid(connection, "note"), trainee, attempt_uuid, author.account_uuid, author.printed, text, utc_now()};
   const std::int64_t id = trainee_id(connection, trainee);
   sql::Statement insert(connection,
                         "INSERT INTO note (uuid, trainee_id, attempt_id, author, printed, text, utc)"
@@ -266,14 +268,20 @@ Signature AssessmentStore::sign(const std::string& attempt_uuid, const std::stri
   if (!note.empty()) check_prose("signature's note", note);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
   if (!attempt_holds(connection, attempt.id)) {
     throw InputError("attempt " + attempt_uuid +
                      ": was changed after it was finished and cannot be signed; see trocar db check");
   }
   refuse_second(connection, attempt.id, meaning, author);
-  const Signature signature{make_uuid(), attempt.row_hash, author.account_uuid, author.printed, meaning,
-                            note,        utc_now()};
+  const Signature signature{next_row_uuid(connection, "signature"),
+                            attempt.row_hash,
+                            author.account_uuid,
+                            author.printed,
+                            meaning,
+                            note,
+                            utc_now()};
   sql::Statement insert(connection,
                         "INSERT INTO signature (uuid, attempt_id, row_hash, account_uuid, signer, meaning, note, utc)"
                         " VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
@@ -306,8 +314,10 @@ VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uui
   check_reason(reason);
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
-  const VerdictOverride verdict{make_uuid(), author.account_uuid, author.printed, reason, utc_now(), passed};
   AnchoredTransaction transaction(*database_);
+  const VerdictOverride verdict{
+      next_row_uuid(connection, "verdict_override"), author.account_uuid, author.printed, reason, utc_now(), passed};
+  require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
   if (attempt.ended_by_device) {
     throw InputError("attempt " + attempt_uuid +
@@ -332,8 +342,9 @@ VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uui
 std::vector<VerdictOverride> AssessmentStore::overrides_of(const std::string& attempt_uuid) const {
   std::vector<VerdictOverride> verdicts;
   sql::Statement rows(database_->connection(),
-                      "SELECT o.uuid, author, printed, reason, utc, passed FROM verdict_override o"
-                      " JOIN attempt a ON a.id = o.attempt_id WHERE a.uuid = ? ORDER BY o.uuid DESC");
+                      "SELECT o.uuid, author, printed, reason, utc, passed FROM verdict_override o JOIN attempt a ON "
+                      "a.id = o.attempt_id WHERE a.uuid = ?" +
+                          newest_first("verdict_override", "o", "attempt_id"));
   rows.bind(attempt_uuid);
   while (rows.step())
     verdicts.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.integer(5) != 0});
@@ -348,9 +359,17 @@ Certificate AssessmentStore::certify(const std::string& trainee, const std::stri
   check_prose("evidence", evidence, kLongestEvidence);
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
-  const Certificate certificate{make_uuid(),         trainee,        exercise_id, level, rule_version, evidence,
-                                author.account_uuid, author.printed, utc_now()};
   AnchoredTransaction transaction(*database_);
+  const Certificate certificate{next_row_uuid(connection, "certificate"),
+                                trainee,
+                                exercise_id,
+                                level,
+                                rule_version,
+                                evidence,
+                                author.account_uuid,
+                                author.printed,
+                                utc_now()};
+  require_signature(*database_, author.account_uuid);
   const std::int64_t id = trainee_id(connection, trainee);
   {
     sql::Statement known(connection, "SELECT 1 FROM exercise WHERE id = ?");
@@ -373,8 +392,9 @@ void AssessmentStore::revoke(const std::string& certificate_uuid, const std::str
   check_reason(reason);
   check_printed("author", author.printed);
   sqlite3* connection = database_->connection();
-  const std::string uuid = make_uuid();
   AnchoredTransaction transaction(*database_);
+  require_signature(*database_, author.account_uuid);
+  const std::string uuid = next_row_uuid(connection, "revocation");
   {
     sql::Statement known(
         connection,

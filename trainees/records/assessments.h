@@ -1,8 +1,9 @@
 // What people say of attempts and trainees: notes, ratings, signatures, overrides, certificates. Sealed rows: added,
 // never changed.
 //
-// A signature and an override are bound to the bytes of the attempt by its row_hash. An override stands beside the
-// score and never replaces it. Thread: that of the Database.
+// Who signs, decides, certifies or withdraws must be somebody (signing.h): each of these throws an InputError
+// otherwise. A signature and an override are bound to the bytes of the attempt by its row_hash. An override stands
+// beside the score and never replaces it. Thread: that of the Database.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
 #include "trainees/records/attempt_identity.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -14,12 +15,23 @@ std::int64_t nanoseconds_since_epoch() {
   return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace
-
-std::string make_uuid() {
+/// Milliseconds since the epoch times 4096, and their fraction: the 60 bits that a UUID begins with.
+std::uint64_t steps_now() {
   const auto now = static_cast<std::uint64_t>(nanoseconds_since_epoch());
-  const std::uint64_t milliseconds = now / 1'000'000;
-  const auto fraction = static_cast<unsigned>((now % 1'000'000) * 4096 / 1'000'000);
+  return now / 1'000'000 * 4096 + now % 1'000'000 * 4096 / 1'000'000;
+}
+
+/// Of a UUID; 0 of another text.
+std::uint64_t steps_of(const std::string& uuid) {
+  unsigned long long high = 0;
+  unsigned low = 0, fraction = 0;
+  if (uuid.size() != 36 || std::sscanf(uuid.c_str(), "%8llx-%4x-7%3x-", &high, &low, &fraction) != 3) return 0;
+  return ((std::uint64_t{high} << 16) + low) * 4096 + fraction;
+}
+
+std::string uuid_at(std::uint64_t steps) {
+  const std::uint64_t milliseconds = steps / 4096;
+  const auto fraction = static_cast<unsigned>(steps % 4096);
   std::random_device random;
   const unsigned high = random(), low = random();
   char text[40];
@@ -29,6 +41,12 @@ std::string make_uuid() {
                 high & 0xFFFFu, low);
   return text;
 }
+
+}  // namespace
+
+std::string make_uuid() { return uuid_at(steps_now()); }
+
+std::string make_uuid_after(const std::string& before) { return uuid_at(std::max(steps_now(), steps_of(before) + 1)); }
 
 std::string utc_now() {
   const std::int64_t now = nanoseconds_since_epoch();

@@ -172,7 +172,7 @@ std::string summary_query(const std::string& code, const std::string& joins) {
          ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
          " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off, " +
          sql::kEndedByDevice + ", " + sql::kBegun + " FROM attempt a" + joins +
-         " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::kDecision;
+         " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::decision();
 }
 
 AttemptSummary summary_of(const sql::Statement& row) {

@@ -368,7 +368,7 @@ std::vector<std::string> AttemptStore::check_recordings() const {
       " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> ''"
       " AND id NOT IN (SELECT attempt_id FROM replica) ORDER BY id");  // other stations keep their recordings
   while (rows.step()) {
-    const fs::path file = located_recording(database_->file(), rows.text(1));
+    const fs::path file = recording_here(database_->file(), rows.text(1), rows.text(0));
     const std::string name = "recording " + file.string() + " of attempt " + rows.text(0);
     std::error_code error;
     const bool there = !file.empty() && fs::is_regular_file(file, error);

@@ -34,7 +34,7 @@ std::vector<CohortRow> cohort(Database& database, const std::string& trainee) {
   sql::Statement rows(database.connection(), std::string(kFinished) + sql::kPassed +
                                                  " AS passed FROM attempt a"
                                                  " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
-                                                 sql::kDecision + kRows);
+                                                 sql::decision() + kRows);
   rows.bind(kPeakForceMetric).bind(kTimeMetric).bind(trainee);
   std::vector<CohortRow> result;
   while (rows.step()) {

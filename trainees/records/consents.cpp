@@ -22,8 +22,8 @@ Consent ConsentStore::record(const std::string& trainee, const std::string& purp
   check_printed("purpose", purpose, 64);
   check_prose("consent", text);
   sqlite3* connection = database_->connection();
-  const Consent consent{make_uuid(), purpose, text, author.account_uuid, utc_now(), given};
   AnchoredTransaction transaction(*database_);
+  const Consent consent{next_row_uuid(connection, "consent"), purpose, text, author.account_uuid, utc_now(), given};
   if (!given && known_trainee(connection, trainee) && !holds(trainee, purpose))
     throw InputError("consent of " + trainee + " to \"" + purpose + "\": none is given, so none can be withdrawn");
   {
@@ -42,8 +42,9 @@ Consent ConsentStore::record(const std::string& trainee, const std::string& purp
 std::vector<Consent> ConsentStore::of(const std::string& trainee) const {
   std::vector<Consent> consents;
   sql::Statement rows(database_->connection(),
-                      "SELECT c.uuid, purpose, text, author, utc, given FROM consent c"
-                      " JOIN person p ON p.trainee_id = c.trainee_id WHERE p.code = ? ORDER BY c.uuid DESC");
+                      "SELECT c.uuid, purpose, text, author, utc, given FROM consent c JOIN person p ON p.trainee_id = "
+                      "c.trainee_id WHERE p.code = ?" +
+                          newest_first("consent", "c", "trainee_id"));
   rows.bind(trainee);
   while (rows.step())
     consents.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.integer(5) != 0});

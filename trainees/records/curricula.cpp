@@ -76,8 +76,13 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
   AnchoredTransaction transaction(*database_);
   const std::optional<Curriculum> last = newest(name);
   if (last && last->toml == toml) return *last;
-  const Curriculum next{make_uuid(),       name,      digest::of_bytes(toml),      toml,
-                        signed_by(author), utc_now(), last ? last->version + 1 : 1};
+  const Curriculum next{next_row_uuid(connection, "curriculum"),
+                        name,
+                        digest::of_bytes(toml),
+                        toml,
+                        signed_by(author),
+                        utc_now(),
+                        last ? last->version + 1 : 1};
   sql::Statement insert(
       connection,
       "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc) VALUES (?, ?, ?, ?, ?, ?, ?)");
@@ -95,7 +100,7 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
 }
 
 std::optional<Curriculum> CurriculumStore::newest(const std::string& name) const {
-  // Two stations may have written the same version: then the later one holds, everywhere.
+  // Two stations may have written the same version, neither knowing of the other: then one holds, the same everywhere.
   sql::Statement row(database_->connection(),
                      std::string(kCurricula) + " WHERE name = ? ORDER BY version DESC, uuid DESC LIMIT 1");
   if (!row.bind(name).step()) return std::nullopt;
@@ -126,10 +131,10 @@ Benchmark CurriculumStore::add_benchmark(const Benchmark& numbers, const Author&
   if (numbers.n < 0) throw InputError("benchmark of " + numbers.metric + ": n is the number of people, 0 or more");
   sqlite3* connection = database_->connection();
   Benchmark added = numbers;
-  added.uuid = make_uuid();
+  AnchoredTransaction transaction(*database_);
+  added.uuid = next_row_uuid(connection, "benchmark");
   added.author = signed_by(author);
   added.utc = utc_now();
-  AnchoredTransaction transaction(*database_);
   sql::Statement exercise(
       connection, "INSERT INTO exercise SELECT ?1, '', '' WHERE NOT EXISTS (SELECT 1 FROM exercise WHERE id = ?1)");
   exercise.bind(added.exercise_id).run();
@@ -153,9 +158,10 @@ Benchmark CurriculumStore::add_benchmark(const Benchmark& numbers, const Author&
 std::vector<Benchmark> CurriculumStore::benchmarks(const std::string& exercise_id, const std::string& level) const {
   std::vector<Benchmark> all;
   sql::Statement rows(database_->connection(),
-                      "SELECT uuid, exercise_id, level, metric, source, rule, author, utc, full_at,"
-                      " zero_at, n FROM benchmark WHERE (?1 = '' OR exercise_id = ?1)"
-                      " AND (?2 = '' OR level = ?2) ORDER BY uuid DESC");
+                      "SELECT uuid, exercise_id, level, metric, source, rule, author, utc, full_at, zero_at, n FROM "
+                      "benchmark b WHERE (?1 = '' OR exercise_id = ?1)"
+                      " AND (?2 = '' OR level = ?2)" +
+                          newest_first("benchmark", "b", "exercise_id"));
   rows.bind(exercise_id).bind(level);
   while (rows.step()) all.push_back(benchmark_of(rows));
   return all;

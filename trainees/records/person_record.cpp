@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "haptics/input_error.h"
+#include "trainees/records/certificate_standing.h"
 #include "trainees/records/erasure.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
@@ -141,6 +142,13 @@ Json attempts_of(const Database& database, std::int64_t trainee) {
   return attempts;
 }
 
+/// With what the certificate stands on now.
+void add_standings(Database& database, const std::string& code, Json& certificates) {
+  for (const Certificate& certificate : AssessmentStore(database).certificates_of(code))
+    for (Json& one : certificates)
+      if (one["uuid"] == certificate.uuid) one["in_question"] = standing_of(database, certificate).in_question;
+}
+
 }  // namespace
 
 std::string everything_about(Database& database, const std::string& trainee) {
@@ -152,6 +160,7 @@ std::string everything_about(Database& database, const std::string& trainee) {
   const std::int64_t id = who.integer(0);
   Json all{
       {"format", "trocar-person-1"}, {"trainee", who.text(1)}, {"code", who.text(2)}, {"created_utc", who.text(3)}};
+  const std::string who_code = who.text(2);
   who.run();
   all["person"] = one_of(rows_of(connection, "SELECT code, name, email FROM person WHERE trainee_id = ?1", id));
   all["account"] = one_of(rows_of(connection,
@@ -159,6 +168,7 @@ std::string everything_about(Database& database, const std::string& trainee) {
                                   " WHERE trainee_id = ?1",
                                   id));
   for (const Part& part : kOfTrainee) all[part.name] = rows_of(connection, part.query, id);
+  add_standings(database, who_code, all["certificates"]);
   all["attempts"] = attempts_of(database, id);
   all["audit"] = rows_of(connection, kTrail, id);
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

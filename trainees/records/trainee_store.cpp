@@ -22,7 +22,7 @@ std::string trainees_query() {
          " LEFT JOIN person p ON p.trainee_id = t.id"
          " LEFT JOIN attempt a ON a.trainee_id = t.id AND a.status <> 'running'"
          " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
-         sql::kDecision;
+         sql::decision();
 }
 
 /// Enough to catch a name in the wrong place; whether an address is anybody's only a letter to it can tell.

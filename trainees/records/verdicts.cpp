@@ -3,9 +3,17 @@
 #include <algorithm>
 
 #include "scenarios/scoring/event_types.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
+
+const std::string& sql::decision() {
+  static const std::string kJoin =
+      " LEFT JOIN verdict_override o ON o.id = (SELECT v.id FROM verdict_override v WHERE v.attempt_id = a.id" +
+      newest_first("verdict_override", "v", "attempt_id") + " LIMIT 1)";
+  return kJoin;
+}
 
 bool judged_passed(bool ended_by_device, bool by_score, const std::optional<bool>& decided) {
   return !ended_by_device && decided.value_or(by_score);
@@ -44,9 +52,9 @@ bool begun(const AttemptResult& result) {
 
 std::map<std::int64_t, bool> newest_decisions(const Database& database) {
   std::map<std::int64_t, bool> out;
-  sql::Statement rows(database.connection(),
-                      "SELECT attempt_id, passed FROM verdict_override ORDER BY uuid");  // later ones over earlier ones
-  while (rows.step()) out[rows.integer(0)] = rows.integer(1) != 0;
+  sql::Statement rows(database.connection(), "SELECT attempt_id, passed FROM verdict_override v" +
+                                                 newest_first("verdict_override", "v", "attempt_id"));
+  while (rows.step()) out.emplace(rows.integer(0), rows.integer(1) != 0);
   return out;
 }
 

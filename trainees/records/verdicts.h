@@ -1,8 +1,8 @@
 // Whether an attempt passed: the one place that decides it.
 //
 // The score has a verdict of its own (score.passed), and people may decide otherwise (verdict_override): the newest
-// decision holds wherever passes count. What the device ended (fault, void) is never passed. The score itself never
-// changes. Thread: that of the Database.
+// decision by the audit trail, not by a clock, holds wherever passes count. What the device ended (fault, void) is
+// never passed. The score itself never changes. Thread: that of the Database.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,7 @@ Verdict verdict_of(Database& database, const AttemptResult& result);
 namespace sql {
 
 /// The same rule for queries. Behind `attempt a` and its `score s`: the newest decision as `o`.
-inline constexpr const char* kDecision =
-    " LEFT JOIN verdict_override o ON o.id = (SELECT v.id FROM verdict_override v WHERE v.attempt_id = a.id ORDER BY "
-    "v.uuid DESC LIMIT 1)";
+const std::string& decision();
 /// 1 or 0.
 inline constexpr const char* kPassed =
     "(CASE WHEN a.status IN ('fault', 'void') THEN 0 ELSE coalesce(o.passed, s.passed, 0) END)";

@@ -16,6 +16,7 @@
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/cap_rows.h"
+#include "trainees/store/record_files.h"
 #include "trainees/store/sqlite_handle.h"
 #include "trainees/store/statement_cache.h"
 
@@ -106,6 +107,7 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, std
   migration_ = migrate(connection_.get(), file_, migrations_);
   if (!migration_.backup.empty()) migration_.compacted = compacted(connection_.get());
   if (!in_memory()) enter_wal(busy_timeout_ms);
+  for (const fs::path& open : record_files_open_to_others(file_)) close_to_others(open);
   // The log is copied back every 8000 pages (32 MB), not every 1000: a commit that has to do it waits for the disk.
   sql::execute(connection_.get(),
                "PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 8000;"
@@ -123,7 +125,10 @@ Database::Database(Database&&) noexcept = default;
 void Database::open(OpenMode mode, int busy_timeout_ms) {
   if (!in_memory() && mode == OpenMode::kExisting) require_content(file_);
   if (!in_memory()) require_no_other_content(file_);
-  if (!in_memory() && mode == OpenMode::kCreate) make_folder(file_);
+  if (!in_memory() && mode == OpenMode::kCreate) {
+    make_folder(file_);
+    make_owner_file(file_);  // there already, or in vain: SQLite says why. Its log gets the same rights
+  }
   sqlite3* raw = nullptr;
   const std::string name = in_memory() ? ":memory:" : file_.string();
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;  // one thread (header)

@@ -3,10 +3,12 @@
 #include <sqlite3.h>
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 
 #include "haptics/input_error.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/statement_cache.h"
 
 namespace trocar::sql {
@@ -34,7 +36,11 @@ void raise(sqlite3* connection, int code, std::string_view doing) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw EnvironmentError(message + " (another program has held the database too long)");
+    case SQLITE_FULL:
+      throw DiskFull(message);
     default:
+      if (const int why = connection == nullptr ? 0 : sqlite3_system_errno(connection); why == ENOSPC || why == EDQUOT)
+        throw DiskFull(message);
       throw EnvironmentError(message);
   }
 }

@@ -12,9 +12,12 @@
 #include "app/cli/records/store_json.h"
 #include "app/session/keeping/recording_check.h"
 #include "haptics/input_error.h"
+#include "trainees/files/size_text.h"
 #include "trainees/files/write_file.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/integrity/witness.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/record_backup.h"
 
 namespace trocar {
 
@@ -51,22 +54,35 @@ int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
   }
   if (!options.witness.empty())
     for (const std::string& problem : check_witness(database, options.witness)) problems.push_back(problem);
+  const std::vector<std::string> remarks = audit_remarks(database.connection());
   if (options.json) {
-    out << problems_json(database, problems);
-  } else if (problems.empty()) {
+    out << problems_json(database, problems, remarks);
+    return problems.empty() ? 0 : kProblemsFound;
+  }
+  if (problems.empty()) {
     out << database.file().string() << ": sound (schema " << database.schema_version() << ", " << attempts.list().size()
         << " attempts, head " << database.head() << key_since(database) << ")\n";
   } else {
     for (const std::string& problem : problems) out << problem << '\n';
   }
+  for (const std::string& remark : remarks) out << "remark: " << remark << '\n';
   return problems.empty() ? 0 : kProblemsFound;
 }
 
 int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err) {
   const Database database = open_database(options.database, OpenMode::kExisting, err);
   const auto target = options.output.empty() ? default_backup(database) : options.output;
-  database.backup(target);
+  const BackupReport made =
+      back_up(database, target, options.leave_recordings ? BackedUp::kWithoutRecordings : BackedUp::kWithRecordings);
   out << target.string() << '\n';
+  if (options.leave_recordings)
+    err << "without its recordings (" << size_text(recordings_size(database))
+        << "): elsewhere the copy has scores and no motion, and db check says that they are missing\n";
+  else if (!made.recordings.empty())
+    err << made.recordings.string() << ": " << made.files << " recordings, " << size_text(made.bytes)
+        << "; they belong to the copy and move with it\n";
+  for (const std::filesystem::path& file : made.missing)
+    err << file.string() << ": an attempt names this recording, but it is not there and in no backup made now\n";
   return 0;
 }
 
@@ -124,9 +140,11 @@ void add_db_upkeep(CLI::App& parent, CommandAction& chosen) {
   check->add_flag("--json", o.json, "As JSON");
   check->add_flag("--quick", o.quick, "Recordings by their digests, not graded again");
   check->add_option("--witness", o.witness, "A head that 'db head --export' wrote before")->check(CLI::ExistingFile);
-  CLI::App* backup = add_command(parent, "backup", "Consistent copy", chosen,
+  CLI::App* backup = add_command(parent, "backup", "Consistent copy, recordings included", chosen,
                                  [given] { return db_backup(*given, std::cout, std::cerr); });
   backup->add_option("-o,--out", o.output, "File (default: beside the database)")->check(writable_path());
+  backup->add_flag("--without-recordings", o.leave_recordings,
+                   "Leave out the recordings, which are most of a record's size");
   CLI::App* migrate = add_command(parent, "migrate", "Bring to this program's schema", chosen,
                                   [given] { return db_migrate(*given, std::cout, std::cerr); });
   CLI::App* anchor = add_command(parent, "anchor", "Begin a new anchor file where the old one was lost", chosen,

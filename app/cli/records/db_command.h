@@ -11,17 +11,19 @@ struct DbOptions {
   std::filesystem::path database;   ///< empty: the default path
   std::filesystem::path output;     ///< of backup; empty: DATABASE.TIME.backup beside it
   bool json = false;                ///< of check
+  std::string rubric{};             ///< of rubric: beginning of its sha256
+  bool leave_recordings = false;    ///< of backup
   bool quick = false;               ///< of check: recordings by their digests alone
   std::filesystem::path witness{};  ///< of check: a head that was exported before
   bool renew = false;               ///< of key
-  std::string rubric{};             ///< of rubric: beginning of its sha256
 };
 
 /// File, schema with its triggers, references, hash chain, audit trail and its signatures, anchor, rubrics; each
 /// recording's bytes, whose it is, and the score that it gives.
 /// @return exit code 0 when sound, 2 when anything is not; the problems are the result.
 int db_check(const DbOptions& options, std::ostream& out, std::ostream& err);
-/// @return exit code 0; the copy's path is the result. Never overwrites (InputError).
+/// @return exit code 0; the copy's path is the result, its recordings' folder and size stand on `err`. Never overwrites
+/// (InputError).
 int db_backup(const DbOptions& options, std::ostream& out, std::ostream& err);
 /// Brings the database to this program's schema, which every command does by itself, and says so.
 /// @return exit code 0

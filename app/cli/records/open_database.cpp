@@ -2,11 +2,19 @@
 
 #include <ostream>
 
+#include "trainees/store/record_files.h"
+
 namespace trocar {
 
 Database open_database(const std::filesystem::path& file, OpenMode mode, std::ostream& err) {
   constexpr int kBusy_ms = 5000;
-  Database database(file.empty() ? default_database_path() : file, mode, kBusy_ms);
+  const std::filesystem::path path = file.empty() ? default_database_path() : file;
+  const std::size_t open_before = record_files_open_to_others(path == ":memory:" ? "" : path).size();
+  Database database(path, mode, kBusy_ms);
+  if (open_before > record_files_open_to_others(database.file()).size())
+    err << database.file().string() << ": " << open_before
+        << " of its files and folders could be opened by other users of this machine; from now on its owner alone "
+           "can\n";
   const MigrationReport& migration = database.migration();
   if (!migration.backup.empty()) {
     err << database.file().string() << ": migrated from schema " << migration.from << " to " << migration.to

@@ -113,12 +113,14 @@ std::string cohort_json(const std::vector<CohortRow>& rows, const std::vector<Co
   return text_of(list);
 }
 
-std::string problems_json(const Database& database, const std::vector<std::string>& problems) {
+std::string problems_json(const Database& database, const std::vector<std::string>& problems,
+                          const std::vector<std::string>& remarks) {
   return text_of({{"database", database.file().string()},
                   {"schema", database.schema_version()},
                   {"head", database.head()},
                   {"sound", problems.empty()},
-                  {"problems", problems}});
+                  {"problems", problems},
+                  {"remarks", remarks}});
 }
 
 }  // namespace trocar

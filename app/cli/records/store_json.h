@@ -21,6 +21,7 @@ std::string trainee_json(const Trainee& trainee, const std::vector<AttemptSummar
                          const std::vector<CohortLine>& lines);
 /// @param lines from which each row takes the judgements of its trainee, exercise, level and rubric.
 std::string cohort_json(const std::vector<CohortRow>& rows, const std::vector<CohortLine>& lines);
-std::string problems_json(const Database& database, const std::vector<std::string>& problems);
+std::string problems_json(const Database& database, const std::vector<std::string>& problems,
+                          const std::vector<std::string>& remarks);
 
 }  // namespace trocar

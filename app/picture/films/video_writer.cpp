@@ -206,7 +206,7 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, int width, int heigh
   s.width = width;
   s.height = height;
   // ffmpeg would say it too, but only after the first picture.
-  const Descriptor trial{::open(s.part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)};
+  const Descriptor trial{::open(s.part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)};
   if (trial.fd < 0) throw EnvironmentError(file.string() + ": cannot be written: " + std::strerror(errno));
   int ends[2] = {-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) no_start("ffmpeg", errno);

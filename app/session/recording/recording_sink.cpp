@@ -7,17 +7,17 @@
 #include <system_error>
 
 #include "haptics/input_error.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 
 FileSink::FileSink(std::filesystem::path file) : file_(std::move(file)) {
-  std::error_code error;
-  if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), error);
-  if (error) fail("its folder cannot be created", error.value());
+  if (!make_owner_folders(file_.parent_path())) fail("its folder cannot be created", errno);
   // Created here and nowhere else: two at once with one name may not write into each other. What is no file (a pipe, a
   // device) has nothing to lose.
+  std::error_code error;
   const bool plain = !std::filesystem::exists(file_, error) || std::filesystem::is_regular_file(file_, error);
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (plain ? O_EXCL : O_TRUNC), 0644);
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (plain ? O_EXCL : O_TRUNC), 0600);
   if (descriptor_ < 0) fail("the recording cannot be created", errno);
 }
 

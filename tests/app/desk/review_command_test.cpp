@@ -45,7 +45,7 @@ TEST_F(ReviewAccounts, AddChangeDisableList) {
     Database database(file_);
     TraineeStore(database).ensure_trainee("T01");
   }
-  EXPECT_EQ(add("T01", "trainee", "246810"), 0);
+  EXPECT_EQ(add("T01", "trainee", "580274"), 0);
   EXPECT_NE(err_.str().find("No instructor has an account yet"), std::string::npos) << "everybody signs in from now on";
   err_.str("");
   EXPECT_EQ(add("ines", "instructor", "correct horse battery"), 0);
@@ -58,17 +58,31 @@ TEST_F(ReviewAccounts, AddChangeDisableList) {
   const AccountStore accounts(database);
   EXPECT_FALSE(accounts.verify("ines", "correct horse battery"));
   EXPECT_TRUE(accounts.verify("ines", "another password"));
-  EXPECT_FALSE(accounts.verify("T01", "246810"));
+  EXPECT_FALSE(accounts.verify("T01", "580274"));
   out_.str("");
   EXPECT_EQ(review_account_list({.database = file_}, out_, err_), 0);
   EXPECT_NE(out_.str().find("instructor"), std::string::npos);
   EXPECT_EQ(out_.str().find("argon2"), std::string::npos);
 }
 
+TEST_F(ReviewAccounts, EveryoneSetsTheirOwnPasswordByThePresentOne) {
+  EXPECT_EQ(add("ines", "instructor", "correct horse battery"), 0);
+  const ReviewAccountOptions own{.database = file_, .login = "ines", .own = true};
+  std::istringstream wrong("wrong horse battery\nmy very own one\n");
+  EXPECT_NE(message_of<InputError>([&] {
+              review_account_password(own, wrong, out_, err_);
+            }).find("the present password is wrong"),
+            std::string::npos);
+  std::istringstream right("correct horse battery\nmy very own one\n");
+  EXPECT_EQ(review_account_password(own, right, out_, err_), 0);
+  Database database(file_);
+  EXPECT_TRUE(AccountStore(database).verify("ines", "my very own one"));
+}
+
 TEST_F(ReviewAccounts, RefuseWhatIsWrong) {
   EXPECT_NE(message_of<InputError>([&] { add("kim", "king", "correct horse battery"); }).find("--role king"),
             std::string::npos);
-  EXPECT_NE(message_of<InputError>([&] { add("kim", "trainee", "246810"); }), "") << "no such trainee";
+  EXPECT_NE(message_of<InputError>([&] { add("kim", "trainee", "580274"); }), "") << "no such trainee";
   EXPECT_NE(message_of<InputError>([&] { add("kim", "instructor", "short"); }), "");
   std::istringstream in("long enough now\n");
   EXPECT_NE(message_of<InputError>([&] {

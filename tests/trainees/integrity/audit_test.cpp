@@ -8,6 +8,7 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/anchor_file.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar::audit_test {
 namespace {
@@ -169,6 +170,25 @@ TEST_F(Audit, ARecordingWithoutItsAttemptIsNoticed) {
   std::ofstream(id.recording.parent_path() / "0000.trec") << "x";
   ASSERT_EQ(AttemptStore(database).check_recordings().size(), 1u);
   EXPECT_NE(AttemptStore(database).check_recordings()[0].find("belongs to no attempt"), std::string::npos);
+}
+
+TEST_F(Audit, AClockThatWasSetBackIsToldAndNoProblem) {
+  Database database(file_);
+  EXPECT_TRUE(audit_remarks(database.connection()).empty());
+  sql::execute(database.connection(), "DROP TRIGGER audit_no_update");
+  const auto say = [&](int position, const char* utc) {
+    sql::Statement(database.connection(), "UPDATE audit SET utc = ? WHERE position = ?").bind(utc).bind(position).run();
+  };
+  const std::int64_t last = audit_head(database.connection()).position;
+  for (int position = 1; position <= last; ++position) say(position, "2026-03-02T10:00:05.000Z");
+  say(4, "2026-03-02T10:00:03.500Z");
+  EXPECT_TRUE(audit_remarks(database.connection()).empty()) << "what keeps a clock right";
+  for (int position = 4; position <= last; ++position) say(position, "2026-03-01T09:00:00.000Z");
+  const auto told = audit_remarks(database.connection());
+  ASSERT_EQ(told.size(), 1U) << "once, not at every entry after it";
+  EXPECT_EQ(told[0],
+            "the clock was set back before entry 4, from 2026-03-02T10:00:05.000Z to 2026-03-01T09:00:00.000Z: entries "
+            "and decisions hold in their order, whatever times they bear");
 }
 
 }  // namespace

@@ -144,8 +144,9 @@ TEST(Judgements, CertifiedPeopleComeBack) {
   const auto due = judged(kShown, 0.9, certified);
   EXPECT_EQ(flags(due), "retention due");
   EXPECT_EQ(due[0].evidence, "certified 2026-01-05; the attempt after 14 days was due 2026-01-19");
-  EXPECT_EQ(flags(judged(kShown, 0.9, "2026-05-25T00:00:00Z")), "learning")
-      << "certified, nothing due: not to be certified again";
+  const auto held = judged(kShown, 0.9, "2026-05-25T00:00:00Z");
+  EXPECT_EQ(flags(held), "certified") << "nothing due: not to be certified again, and no learner";
+  EXPECT_EQ(held[0].evidence.find("certified 2026-05-25; "), 0U) << held[0].evidence;
 }
 
 TEST(Judgements, OfACurveAreThoseOfItsAttempts) {
@@ -184,9 +185,17 @@ TEST(Judgements, OldVoidOnesFindTheirPlace) {
   EXPECT_EQ(flags(judge(curve, safety, {}, {}, "", kNow)), "integrity");
 }
 
+TEST(Judgements, SayThatACertificateIsInQuestionAndWhy) {
+  const auto found =
+      judge(attempts(kShown), {}, 0.9, "2026-05-25T00:00:00Z", kNow, "the attempt was decided not passed");
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].flag, Flag::kInQuestion);
+  EXPECT_EQ(found[0].evidence, "certificate of 2026-05-25: the attempt was decided not passed");
+}
+
 TEST(Flags, HaveNamesThatReadBack) {
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
-                          Flag::kRetentionDue, Flag::kReady, Flag::kLearning})
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kPlateau,
+                          Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kLearning})
     EXPECT_EQ(flag_named(flag_name(flag)), flag);
   EXPECT_FALSE(flag_named("perfect"));
 }

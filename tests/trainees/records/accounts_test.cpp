@@ -52,14 +52,14 @@ TEST_F(Accounts, APasswordIsStoredAsArgon2idWithItsOwnSalt) {
 }
 
 TEST_F(Accounts, ATraineesAccountIsBoundToTheTrainee) {
-  EXPECT_NE(refusal("anna", "Anna", Role::kTrainee, "T-1", "123456").find("add the trainee first"), std::string::npos);
+  EXPECT_NE(refusal("anna", "Anna", Role::kTrainee, "T-1", "580274").find("add the trainee first"), std::string::npos);
   TraineeStore(database_).ensure_trainee("T-1");
-  const Account account = store_.add("anna", "Anna", Role::kTrainee, "t-1", "123456", "");
+  const Account account = store_.add("anna", "Anna", Role::kTrainee, "t-1", "580274", "");
   EXPECT_EQ(account.trainee_code, "T-1");
-  EXPECT_EQ(store_.verify("anna", "123456")->trainee_code, "T-1");
-  EXPECT_NE(refusal("anna2", "Anna", Role::kTrainee, "T-1", "123456").find("has the account \"anna\" already"),
+  EXPECT_EQ(store_.verify("anna", "580274")->trainee_code, "T-1");
+  EXPECT_NE(refusal("anna2", "Anna", Role::kTrainee, "T-1", "580274").find("has the account \"anna\" already"),
             std::string::npos);
-  EXPECT_NE(refusal("x-ray", "X", Role::kTrainee, "", "123456").find("trainee's code"), std::string::npos);
+  EXPECT_NE(refusal("x-ray", "X", Role::kTrainee, "", "580274").find("trainee's code"), std::string::npos);
   EXPECT_NE(refusal("x-ray", "X", Role::kInstructor, "T-1", kPassword).find("only a trainee's"), std::string::npos);
 }
 
@@ -71,7 +71,7 @@ TEST_F(Accounts, BadLoginsNamesAndPasswordsAreRefused) {
   for (const std::string name : {"", "   ", "a\r\nSet-Cookie: x", "\xFF\xFE", "a\x7F"}) {
     EXPECT_NE(refusal("login", name, Role::kInstructor, "", kPassword).find("name"), std::string::npos) << name;
   }
-  EXPECT_NE(refusal("login", "N", Role::kInstructor, "", "123456").find("at least 10"), std::string::npos)
+  EXPECT_NE(refusal("login", "N", Role::kInstructor, "", "580274").find("at least 10"), std::string::npos)
       << "no PIN for instructors";
   EXPECT_NE(
       refusal("login", "N", Role::kInstructor, "", "\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4\xC3\xA4").find("at least 10"),
@@ -167,7 +167,7 @@ TEST_F(Accounts, SomebodyWhoCanManageTheDeskRemains) {
   EXPECT_TRUE(store_.verify("eva", kPassword));
   EXPECT_EQ(refusal_of("adam"), "") << "who is disabled already stays so";
   TraineeStore(database_).ensure_trainee("T-1");
-  store_.add("anna", "Anna", Role::kTrainee, "T-1", "123456", "");
+  store_.add("anna", "Anna", Role::kTrainee, "T-1", "580274", "");
   EXPECT_EQ(refusal_of("anna"), "");
   EXPECT_TRUE(database_.check().empty());
 }

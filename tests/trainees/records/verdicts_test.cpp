@@ -6,6 +6,7 @@
 #include "trainees/progress/unlock.h"
 #include "trainees/records/cohort.h"
 #include "trainees/records/trainee_store.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar::verdicts_test {
 namespace {
@@ -24,7 +25,7 @@ class Verdicts : public testing::Test {
     return store_attempt(database_, start, result);
   }
   void decide(const AttemptId& id, bool passed, const std::string& by = "Dr B") {
-    assessments_.override_verdict(id.uuid, passed, kReason, {"", by});
+    assessments_.override_verdict(id.uuid, passed, kReason, {"0192-b", by});
   }
   AttemptSummary summary(const AttemptId& id) { return store_.find(id.uuid); }
 
@@ -62,6 +63,48 @@ TEST_F(Verdicts, TheNewestHoldsInEveryListAndTheScoreStays) {
   EXPECT_EQ(summary(failed).decided_by, "Dr C");
   EXPECT_EQ(verdict_of(database_, store_.load(failed.row)).decision->printed, "Dr C");
   EXPECT_EQ(newest_decisions(database_), (std::map<std::int64_t, bool>{{failed.row, true}, {passed.row, false}}));
+}
+
+/// The decision as a machine writes it whose clock says something else. @param uuid with which it begins.
+void redate(Database& database, const std::string& by, const std::string& uuid) {
+  sql::execute(database.connection(),
+               "DROP TRIGGER IF EXISTS audit_no_update; DROP TRIGGER IF EXISTS verdict_override_no_update");
+  const std::string of_by = " WHERE printed = '" + by + "'";
+  sql::execute(database.connection(),
+               ("UPDATE audit SET subject = '" + uuid +
+                "' || substr(subject, 5) WHERE subject = (SELECT uuid FROM verdict_override" + of_by +
+                "); UPDATE verdict_override SET uuid = '" + uuid + "' || substr(uuid, 5)" + of_by)
+                   .c_str());
+}
+
+TEST_F(Verdicts, TheLastOneHoldsThoughTheClockWasSetBack) {
+  const AttemptId id = attempt(60);
+  decide(id, true, "Dr A");
+  redate(database_, "Dr A", "0fff");
+  decide(id, false, "Dr B");
+  decide(id, true, "Dr C");
+  const auto all = assessments_.overrides_of(id.uuid);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].printed + all[1].printed + all[2].printed, "Dr CDr BDr A");
+  EXPECT_GT(all[0].uuid, all[1].uuid) << "the same order by UUID, which other databases go by";
+  EXPECT_GT(all[1].uuid, all[2].uuid);
+  EXPECT_EQ(summary(id).decided_by, "Dr C");
+  EXPECT_EQ(newest_decisions(database_), (std::map<std::int64_t, bool>{{id.row, true}}));
+}
+
+/// A program that knew no better gave the later decision the smaller UUID.
+TEST_F(Verdicts, TheTrailOrdersWhatAnOlderProgramWroteUnderAClockThatWasSetBack) {
+  const AttemptId id = attempt(60);
+  decide(id, true, "Dr A");
+  decide(id, false, "Dr B");
+  redate(database_, "Dr B", "0100");
+  EXPECT_EQ(assessments_.overrides_of(id.uuid).front().printed, "Dr B");
+  EXPECT_FALSE(summary(id).passed);
+  EXPECT_EQ(newest_decisions(database_), (std::map<std::int64_t, bool>{{id.row, false}}));
+  sql::execute(database_.connection(),
+               "UPDATE audit SET actor = 'centre' WHERE position = (SELECT max(position) FROM audit)");
+  EXPECT_EQ(assessments_.overrides_of(id.uuid).front().printed, "Dr A")
+      << "of one that came from elsewhere the UUID says when, the same everywhere";
 }
 
 TEST_F(Verdicts, CountsOfPassesFollow) {
@@ -116,7 +159,7 @@ TEST_F(Verdicts, ACertificateCitesNoAttemptThatIsNotPassed) {
   const AttemptId good = attempt(90), other = store_attempt(database_, sample_start("T-2"), sample_result(90));
   const auto certify = [&](const AttemptId& id) {
     return message_of<InputError>([&] {
-      assessments_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"", "Dr B"});
+      assessments_.certify("T-1", "surface-touch", "L1", "1", "{\"attempt\":\"" + id.uuid + "\"}", {"0192-b", "Dr B"});
     });
   };
   decide(good, false, "Dr A");

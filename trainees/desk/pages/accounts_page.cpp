@@ -1,3 +1,4 @@
+#include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/markup/html.h"
 
@@ -69,6 +70,27 @@ std::string new_account(const AccountsView& view, const Frame& frame) {
 }
 
 }  // namespace
+
+std::string password_page(bool trainee, Frame frame) {
+  frame.title = "Your password";
+  const std::string form = "password";
+  return document(
+      frame,
+      "<div class=\"title\"><h1>Your password</h1></div>" +
+          section("password", "Set your own password",
+                  form_begin("/password", frame) + "<div class=\"fields\">" +
+                      text_field("present", "password", trainee ? "Present password or PIN" : "Present password", "",
+                                 "type=\"password\" maxlength=\"1024\" required=\"required\" "
+                                 "autocomplete=\"current-password\"") +
+                      text_field("fresh", "fresh",
+                                 trainee ? "New password, or PIN of 6 digits" : "New password, at least 10 characters",
+                                 "", kPasswordField + refused_field(frame, form)) +
+                      text_field("again", "again", "New one again", "", kPasswordField) + "</div>" +
+                      why_refused(frame, form) +
+                      "<p><button>Set it</button></p></form><p class=\"dim\">Nobody can read it back. What repeats "
+                      "itself, sequences, the login and the most common ones are refused. It ends your sign-ins "
+                      "elsewhere.</p>"));
+}
 
 std::string accounts_page(const AccountsView& view, Frame frame) {
   frame.title = "Accounts";

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/desk/pages/film_page.h"
 #include "trainees/desk/pages/pages.h"
@@ -6,15 +8,33 @@
 namespace trocar::review {
 namespace {
 
-std::string signatures(const AttemptView& view) {
+/// Decisions hold in the order of the audit trail; where their times say otherwise, somebody set a clock back.
+std::string decision_clock_notice(const std::vector<VerdictOverride>& newest_first) {
+  const auto later = [](const VerdictOverride& a, const VerdictOverride& b) { return b.utc > a.utc; };
+  if (std::adjacent_find(newest_first.begin(), newest_first.end(), later) == newest_first.end()) return "";
+  return "<p class=\"warning\">" + shape("integrity") +
+         "The times of these decisions do not follow their order: a clock was set back, or those of two stations "
+         "differ. They stand newest first, as the audit trail has them, and the first holds.</p>";
+}
+
+std::string signatures(const AttemptView& view, bool demo) {
   if (view.signatures.empty()) return "<p class=\"dim\">Not signed yet.</p>";
   std::string rows;
   for (const Signature& s : view.signatures)
-    rows += "<tr><th scope=\"row\">" + escape_html(s.signer) + "</th>" + cell(words_of(s.meaning)) + "<td>" +
-            date_html(s.utc) + "</td><td class=\"long\">" + escape_html(s.note) + "</td><td class=\"mono\">" +
-            escape_html(s.row_hash.substr(0, 16)) +
+    rows += "<tr><th scope=\"row\">" + escape_html(author_text(s.signer, s.account_uuid, demo)) + "</th>" +
+            cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\">" + escape_html(s.note) +
+            "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
             (s.row_hash == view.row_hash ? "" : " <span class=\"tag\">other bytes</span>") + "</td></tr>";
   return table("Signatures", head_cells({"Signed by", "Meaning", "When", "Note", "Bound to"}), rows);
+}
+
+std::string no_signature_notice(const Frame& frame) {
+  return "<p class=\"warning\">" + shape("integrity") +
+         "You cannot sign, decide or certify: " + escape_html(frame.no_signature) + ". " +
+         (frame.signed_in       ? link_html("/password", "Set your own password")
+          : frame.administrator ? link_html("/accounts", "Make an account")
+                                : std::string()) +
+         "</p>";
 }
 
 std::string sign_form(const AttemptView& view, const Frame& frame) {
@@ -26,7 +46,8 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
          select_field("sign-meaning", "meaning", "Meaning", meanings, kept(frame, "sign", "meaning", "review")) +
          text_field("sign-note", "note", "Note to the signature (may be empty)", kept(frame, "sign", "note"),
                     "maxlength=\"1000\"" + refused_field(frame, "sign")) +
-         why_refused(frame, "sign") + "<p><button>Sign" + (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
+         password_field("sign-password", frame) + why_refused(frame, "sign") + "<p><button>Sign" +
+         (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
          "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt "
          "(row hash " +
          escape_html(view.row_hash.substr(0, 16)) + "). It cannot be taken back.</p></form>";
@@ -40,7 +61,7 @@ std::string override_form(const AttemptView& view, const Frame& frame) {
                       kept(frame, "override", "passed", view.verdict().passed ? "no" : "yes")) +
          area_field("override-reason", "reason", "Reason, at least 10 characters", kept(frame, "override", "reason"), 2,
                     "minlength=\"10\" maxlength=\"2000\" required=\"required\"" + refused_field(frame, "override")) +
-         why_refused(frame, "override") +
+         password_field("override-password", frame) + why_refused(frame, "override") +
          "<p><button class=\"danger\">Record the decision</button></p><p class=\"dim\">The score stays as it is; the "
          "newest "
          "decision is what counts, for unlocking, progress and certificates too.</p></form></details>";
@@ -52,27 +73,26 @@ bool holds(const CitedCertificate& one, const AttemptView& view) {
 }
 
 /// Each certificate of this exercise and level, or that cites this attempt, with its date and who gave it.
-std::string certificate_list(const AttemptView& view) {
+std::string certificate_list(const AttemptView& view, bool demo) {
   std::string out;
   for (const CitedCertificate& one : view.certificates) {
     const Certificate& c = one.certificate;
     const bool held = c.revoked_utc.empty();
     out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(c.exercise_id) + " " +
-           escape_html(c.level) + ", " + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
-           escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
+           escape_html(c.level) + ", " + day_html(c.utc) + ", " + escape_html(author_text(c.printed, c.author, demo)) +
+           ", rules " + escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
            (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason)) + " " +
            link_html("/trainee/" + url_part(view.result.trainee) + "#certificates", "evidence");
-    if (held && one.cites && !view.verdict().passed)
-      out += "<p class=\"warning\">" + shape("integrity") +
-             "This attempt is not passed any more: the certificate rests on it. Look, and withdraw it if it must not "
-             "stand.</p>";
+    if (held && !one.in_question.empty())
+      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(one.in_question) +
+             ". Look, and withdraw it if it must not stand.</p>";
     out += "</li>";
   }
   return out.empty() ? "" : "<ul>" + out + "</ul>";
 }
 
 std::string certificate_form(const AttemptView& view, const Frame& frame) {
-  const std::string given = certificate_list(view);
+  const std::string given = certificate_list(view, frame.demo);
   for (const CitedCertificate& one : view.certificates)
     if (holds(one, view)) return given + why_refused(frame, "certify");
   if (!view.ready) {
@@ -86,9 +106,9 @@ std::string certificate_form(const AttemptView& view, const Frame& frame) {
                           escape_html(view.ready->evidence) + " " + basis_html(*view.ready) + "</p>";
   if (!view.verdict().passed)
     return why + "<p class=\"dim\">This attempt is not passed, so no certificate can cite it. Open one that is.</p>";
-  return why + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) + "<p><button>Certify " +
-         escape_html(view.result.trainee) + " for " + escape_html(view.exercise) + " " +
-         escape_html(view.result.level) + "</button></p></form>";
+  return why + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) +
+         password_field("certify-password", frame) + "<p><button>Certify " + escape_html(view.result.trainee) +
+         " for " + escape_html(view.exercise) + " " + escape_html(view.result.level) + "</button></p></form>";
 }
 
 std::string compare_section(const AttemptView& view, const Frame& frame) {
@@ -128,15 +148,21 @@ std::string title(const AttemptView& view, const Frame& frame) {
 }  // namespace
 
 std::string sign_off_section(const AttemptView& view, const Frame& frame) {
-  std::string out = signatures(view);
+  std::string out = signatures(view, frame.demo);
   if (view.overrides.size() > 1) {
     out += "<ul>";
     for (const VerdictOverride& o : view.overrides)
-      out += "<li>" + std::string(o.passed ? "Passed" : "Not passed") + ", " + escape_html(o.printed) + ", " +
-             date_html(o.utc) + ": " + escape_html(o.reason) + "</li>";
-    out += "</ul>";
+      out += "<li>" + std::string(o.passed ? "Passed" : "Not passed") + ", " +
+             escape_html(author_text(o.printed, o.author, frame.demo)) + ", " + date_html(o.utc) + ": " +
+             escape_html(o.reason) + "</li>";
+    out += "</ul>" + decision_clock_notice(view.overrides);
   }
-  if (!frame.may_write) return section("sign", "Sign-off", out + certificate_list(view));
+  if (!frame.may_write) return section("sign", "Sign-off", out + certificate_list(view, frame.demo));
+  if (!frame.no_signature.empty())
+    return section("sign", "Sign-off",
+                   sign_checklist(view) + out + why_refused(frame, "sign") + why_refused(frame, "override") +
+                       no_signature_notice(frame) + "<h3>Certificate</h3>" + certificate_list(view, frame.demo) +
+                       why_refused(frame, "certify"));
   return section("sign", "Sign-off",
                  sign_checklist(view) + out + sign_form(view, frame) + override_form(view, frame) +
                      "<h3>Certificate</h3>" + certificate_form(view, frame));

@@ -84,15 +84,10 @@ std::vector<Choice> choices(const std::string& all, const std::vector<std::strin
 std::string filters(const CohortView& view) {
   std::vector<Choice> exercises = {{"", "all exercises"}};
   exercises.insert(exercises.end(), view.exercises.begin(), view.exercises.end());
-  const std::vector<Choice> states = {{"", "any state"},
-                                      {"unsafe", "unsafe"},
-                                      {"relapsed", "relapsed"},
-                                      {"stuck", "stuck"},
-                                      {"integrity", "check record"},
-                                      {"plateau", "plateau"},
-                                      {"retention-due", "retention due"},
-                                      {"ready", "ready"},
-                                      {"learning", "learning"}};
+  const std::vector<Choice> states = {
+      {"", "any state"},  {"unsafe", "unsafe"},          {"relapsed", "relapsed"}, {"in-question", "in question"},
+      {"stuck", "stuck"}, {"integrity", "check record"}, {"plateau", "plateau"},   {"retention-due", "retention due"},
+      {"ready", "ready"}, {"certified", "certified"},    {"learning", "learning"}};
   return "<form class=\"filters\" method=\"get\" action=\"/\">" +
          select_field("f-group", "group", "Group", choices("all groups", view.groups), view.asked.group) +
          select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +

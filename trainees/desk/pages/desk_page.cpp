@@ -46,6 +46,9 @@ std::string usual_words(int status) {
              "is there.";
     case 503:
       return "The desk is busy. Try again in a moment.";
+    case 507:
+      return "The disk of this machine is full: nothing was written. Make room on it, then send it again. All that is "
+             "there can be read on.";
     default:
       return "The request cannot be answered.";
   }
@@ -83,6 +86,8 @@ std::string status_title(int status) {
       return "Head too large";
     case 503:
       return "Busy";
+    case 507:
+      return "The disk is full";
     case 505:
       return "Other protocol";
     default:

@@ -37,7 +37,7 @@ std::string evidence_text(const std::string& text) {
   std::string out = text_of(evidence, "words");
   const auto add = [&out](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
   for (const auto& [key, value] : evidence.items()) {
-    if (key == "words") continue;
+    if (key == "words" || key == "attempts") continue;  // these are many, and the page lists them
     if (key == "overrides" && value.is_array()) {
       const std::string decisions = decisions_text(value);
       if (!decisions.empty()) add(decisions);

@@ -16,14 +16,16 @@ namespace {
 struct Shape {
   const char *name, *path;
 };
-constexpr std::array<Shape, 11> kShapes = {{
+constexpr std::array<Shape, 13> kShapes = {{
     {"unsafe", "M6 0.5 11.8 11.5H0.2Z"},
     {"relapsed", "M1 2h3v5h3V3.5L11.5 7 7 11.5V9H1Z"},
+    {"in-question", "M6 0 12 6 6 12 0 6ZM5.2 2.8h1.6v4H5.2ZM5.2 7.8h1.6v1.6H5.2Z"},
     {"stuck", "M1 1h10v10H1Z"},
     {"plateau", "M0 4.2h12v3.6H0Z"},
     {"integrity", "M6 0 12 6 6 12 0 6Z"},
     {"retention-due", "M6 0a6 6 0 1 0 0.01 0ZM5.1 2h1.8v3.6l2.6 1.5-.9 1.6-3.5-2.1Z"},
     {"ready", "M0.5 6.5 2.5 4.4 4.7 6.6 9.6 1.4 11.6 3.4 4.7 10.7Z"},
+    {"certified", "M1 0h10v7L6 12 1 7ZM3 4.9 5.3 7.2 9.2 3.3 8.2 2.3 5.3 5.2 4 3.9Z"},
     {"learning", "M6 1a5 5 0 1 0 0.01 0ZM6 3a3 3 0 1 1-0.01 0Z"},
     {"pass", "M0.5 6.5 2.5 4.4 4.7 6.6 9.6 1.4 11.6 3.4 4.7 10.7Z"},
     {"fail", "M2.2 0.6 6 4.4 9.8 0.6 11.4 2.2 7.6 6 11.4 9.8 9.8 11.4 6 7.6 2.2 11.4 0.6 9.8 4.4 6 0.6 2.2Z"},
@@ -52,7 +54,8 @@ std::string top(const Frame& frame) {
   std::string out = "<header class=\"top\"><span class=\"brand\">Trocar desk</span>" + (frame.ended ? "" : nav(frame));
   if (!frame.who.empty() && frame.signed_in)
     out += "<form class=\"who\" method=\"post\" action=\"/sign-out\"><input type=\"hidden\" name=\"token\" value=\"" +
-           escape_html(frame.token) + "\"/><span>" + escape_html(frame.who) + "</span><button>Sign out</button></form>";
+           escape_html(frame.token) + "\"/><span>" + escape_html(frame.who) + "</span>" +
+           link_html("/password", "Password") + "<button>Sign out</button></form>";
   else if (!frame.who.empty())
     out += "<p class=\"who\">" + escape_html(frame.who) + "</p>";
   out += "</header>";
@@ -202,14 +205,16 @@ struct FlagWords {
   const char *key, *words;
 };
 /// Gravest first.
-constexpr std::array<FlagWords, 8> kFlags = {{{Flag::kUnsafe, "unsafe", "unsafe"},
-                                              {Flag::kRelapsed, "relapsed", "relapsed"},
-                                              {Flag::kStuck, "stuck", "stuck"},
-                                              {Flag::kIntegrity, "integrity", "check record"},
-                                              {Flag::kPlateau, "plateau", "plateau"},
-                                              {Flag::kRetentionDue, "retention-due", "retention due"},
-                                              {Flag::kReady, "ready", "ready"},
-                                              {Flag::kLearning, "learning", "learning"}}};
+constexpr std::array<FlagWords, 10> kFlags = {{{Flag::kUnsafe, "unsafe", "unsafe"},
+                                               {Flag::kRelapsed, "relapsed", "relapsed"},
+                                               {Flag::kInQuestion, "in-question", "in question"},
+                                               {Flag::kStuck, "stuck", "stuck"},
+                                               {Flag::kIntegrity, "integrity", "check record"},
+                                               {Flag::kPlateau, "plateau", "plateau"},
+                                               {Flag::kRetentionDue, "retention-due", "retention due"},
+                                               {Flag::kReady, "ready", "ready"},
+                                               {Flag::kCertified, "certified", "certified"},
+                                               {Flag::kLearning, "learning", "learning"}}};
 }  // namespace
 
 int gravity(Flag flag) {
@@ -285,6 +290,17 @@ std::string text_field(const std::string& id, const std::string& name, const std
                        const std::string& value, const std::string& extra_html) {
   return "<p class=\"field\">" + label_for(id, label) + "<input id=\"" + id + "\" name=\"" + name + "\" value=\"" +
          escape_html(value) + "\" " + extra_html + "/></p>";
+}
+
+std::string password_field(const std::string& id, const Frame& frame) {
+  if (!frame.signed_in) return "";
+  return text_field(id, "password", "Your password again", "",
+                    "type=\"password\" maxlength=\"1024\" required=\"required\" autocomplete=\"current-password\"");
+}
+
+std::string author_text(const std::string& printed, const std::string& account_uuid, bool demo) {
+  if (!account_uuid.empty()) return printed;
+  return printed + (demo ? " (of the demo)" : " (no account)");
 }
 
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,

@@ -32,12 +32,13 @@ struct Frame {
   bool demo = false;
   bool may_write = true;  ///< instructors and administrators
   bool administrator = false;
-  bool demo_goes = false;      ///< the demo cohort can be removed from here
-  bool ended = false;          ///< the desk closes: there is nowhere to go from this page
-  bool pdf = false;            ///< PDF of this page can be had
-  int refresh_s = 0;           ///< page asks for itself again
-  std::string notice = {};     ///< what has just been done
-  ReplicaStatus central = {};  ///< of a desk that serves a central record
+  std::string no_signature = {};  ///< why who looks cannot sign now; "" when they can (signing.h)
+  bool demo_goes = false;         ///< the demo cohort can be removed from here
+  bool ended = false;             ///< the desk closes: there is nowhere to go from this page
+  bool pdf = false;               ///< PDF of this page can be had
+  int refresh_s = 0;              ///< page asks for itself again
+  std::string notice = {};        ///< what has just been done
+  ReplicaStatus central = {};     ///< of a desk that serves a central record
   RefusedForm refused = {};
 };
 
@@ -65,7 +66,7 @@ std::string badge(Flag flag);
 std::string flag_words(Flag flag);           ///< "check record": as the badge says it
 std::string shape(const std::string& name);  ///< a small drawn shape: a flag's name, or pass, fail, void
 Flag state_named(const std::string& name, Flag otherwise);
-/// Gravest first: unsafe, relapsed, stuck, integrity, plateau, retention due, ready, learning.
+/// Gravest first: unsafe, relapsed, in question, stuck, integrity, plateau, retention due, ready, certified, learning.
 int gravity(Flag flag);
 
 /// "22 Nov 2026, 13:05" in a <time>; text that is no date stays as it is.
@@ -90,6 +91,10 @@ std::string evidence_text(const std::string& json);
 std::string form_begin(const std::string& action_html, const Frame& frame);
 std::string text_field(const std::string& id, const std::string& name, const std::string& label,
                        const std::string& value, const std::string& extra_html = "");
+/// For a form that binds who sends it: their password once more; "" where nobody signs in.
+std::string password_field(const std::string& id, const Frame& frame);
+/// "Dr Brandt"; of a word that no account stands behind: "Demo (of the demo)", "Local instructor (no account)".
+std::string author_text(const std::string& printed, const std::string& account_uuid, bool demo);
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,
                        const std::string& value, int rows, const std::string& extra_html = "");
 std::string select_field(const std::string& id, const std::string& name, const std::string& label,

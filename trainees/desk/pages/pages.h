@@ -24,6 +24,8 @@ std::string station_page(const LiveStations& view, Frame frame);
 /// typed.
 std::string station_message_page(const std::string& trainee, const std::string& now, const std::string& problem,
                                  const std::string& text, Frame frame);
+/// One's own password. @param trainee a PIN will do.
+std::string password_page(bool trainee, Frame frame);
 /// A short page of one sentence: not found, refused, bad input. @param words not escaped yet.
 std::string message_page(const std::string& title, const std::string& words, Frame frame);
 

@@ -1,19 +1,11 @@
 #include <algorithm>
-#include <cmath>
 
 #include "trainees/desk/queries/record_views.h"
+#include "trainees/files/size_text.h"
 #include "trainees/markup/html.h"
 
 namespace trocar::review {
 namespace {
-
-/// "1.2 MB", decimal.
-std::string size_text(std::uintmax_t bytes) {
-  const auto value = static_cast<double>(bytes);
-  if (value < 1e3) return std::to_string(bytes) + " B";
-  if (value < 1e6) return fixed_text(value / 1e3, 1) + " kB";
-  return value < 1e9 ? fixed_text(value / 1e6, 1) + " MB" : fixed_text(value / 1e9, 2) + " GB";
-}
 
 std::string parts(const char* here) {
   std::string out = "<nav class=\"parts\" aria-label=\"Record\">";
@@ -40,6 +32,8 @@ std::string check_section(const RecordView& view, const Frame& frame) {
     if (all > kShown) out += "<li>and " + std::to_string(all - kShown) + " more: trocar db check tells all</li>";
     out += "</ul></div>";
   }
+  for (const std::string& remark : view.remarks)
+    out += "<p class=\"dim\">" + shape("integrity") + "Remark: " + escape_html(remark) + "</p>";
   return section("check", "Check",
                  out +
                      "<p>Reads every row and every recording again and compares them with the hash chain, the audit "
@@ -56,11 +50,16 @@ std::string backup_section(const RecordView& view, const Frame& frame) {
   const std::string listed = rows.empty() ? "<p>None lies beside the record.</p>"
                                           : table("Backups beside the record, newest first",
                                                   head_cells({"File", "Made (UTC)", ">Size"}), rows);
-  return section("backups", "Backups",
-                 listed + why_refused(frame, "backup") + form_begin("/record/backup", frame) +
-                     "<p><button>Make a backup</button></p></form><p class=\"dim\">A whole copy of the database in the "
-                     "same folder, without the "
-                     "recordings. Take it to another disk: one beside the record is lost with it.</p>");
+  return section(
+      "backups", "Backups",
+      listed + why_refused(frame, "backup") + form_begin("/record/backup", frame) +
+          "<p><label><input type=\"checkbox\" name=\"leave\" value=\"recordings\"/> Leave "
+          "out the recordings (" +
+          size_text(view.recordings_bytes) +
+          ")</label></p><p><button>Make a backup</button></p></form><p class=\"dim\">A whole copy of database "
+          "and recordings in the same folder; with many recordings it takes minutes. Without them a copy "
+          "elsewhere has scores and no motion, and its check says so. Take it to another disk: one beside "
+          "the record is lost with it.</p>");
 }
 
 std::string audit_filters(const AuditView& view) {
@@ -71,6 +70,14 @@ std::string audit_filters(const AuditView& view) {
          select_field("f-person", "person", "Done by", persons, view.asked.person) +
          select_field("f-action", "action", "Action", actions, view.asked.action) +
          "<p class=\"field\"><button>Show</button> " + link_html("/audit", "Reset") + "</p></form>";
+}
+
+std::string trail_clock_notice(const AuditView& view) {
+  if (view.set_back == 0) return "";
+  return "<p class=\"warning\">" + shape("integrity") + "The clock of this machine was set back " +
+         plural(static_cast<std::int64_t>(view.set_back), "time", "times") +
+         ". Entries stand in the order in which they were written and decisions hold in that order; times around "
+         "those places cannot be trusted.</p>";
 }
 
 std::string audit_pages(const AuditView& view) {
@@ -116,6 +123,9 @@ std::string audit_page(const AuditView& view, Frame frame) {
   for (const AuditEntry& entry : view.entries) {
     const bool attempt = entry.action.starts_with("attempt ") && entry.subject.size() == 36;
     rows += "<tr><th scope=\"row\" class=\"n\">" + std::to_string(entry.position) + "</th><td>" + date_html(entry.utc) +
+            (entry.before_utc.empty()
+                 ? ""
+                 : " <span class=\"tag\">clock set back from " + date_html(entry.before_utc) + "</span>") +
             "</td>" + cell(entry.who) + cell(entry.action) + "<td class=\"mono long\">" +
             (attempt ? link_html("/attempt/" + url_part(entry.subject), entry.subject) : escape_html(entry.subject)) +
             "</td><td class=\"mono\">" +
@@ -130,7 +140,7 @@ std::string audit_page(const AuditView& view, Frame frame) {
       "before it.</p></div>" +
           parts("/audit") +
           section("trail", plural(view.total, "entry", "entries"),
-                  audit_filters(view) +
+                  trail_clock_notice(view) + audit_filters(view) +
                       table("Newest first; times are UTC",
                             head_cells({">No.", "When", "Done by", "Action", "Of", "Detail"}), rows, "audit") +
                       audit_pages(view)));

@@ -206,23 +206,26 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
   int n = 0;
   for (const Certificate& c : view.certificates) {
     const bool held = c.revoked_utc.empty();
+    ++n;
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" +
            shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
-           (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " + escape_html(c.printed) + ", rules " +
-           escape_html(c.rule_version) + "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
+           (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " +
+           escape_html(author_text(c.printed, c.author, frame.demo)) + ", rules " + escape_html(c.rule_version) +
+           "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
     if (const auto shaken = view.shaken.find(c.uuid); shaken != view.shaken.end())
-      out += "<p class=\"warning\">" + shape("integrity") + escape_html(sentence(shaken->second)) + "</p>";
+      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(shaken->second) +
+             ". Look, and withdraw it if it must not stand.</p>";
     if (frame.pdf)
       out += "<p class=\"files\">" +
              link_html("/report/certificate/" + url_part(c.uuid) + ".pdf", "Certificate as PDF") + "</p>";
     if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
-    if (held && frame.may_write)
+    if (held && frame.may_write && frame.no_signature.empty())
       out += std::string("<details") + (frame.refused.form == "revoke-" + c.uuid ? " open=\"open\"" : "") +
              "><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
-             text_field("revoke-" + std::to_string(++n), "reason", "Reason, at least 10 characters",
+             text_field("revoke-" + std::to_string(n), "reason", "Reason, at least 10 characters",
                         kept(frame, "revoke-" + c.uuid, "reason"),
                         "minlength=\"10\" required=\"required\"" + refused_field(frame, "revoke-" + c.uuid)) +
-             why_refused(frame, "revoke-" + c.uuid) +
+             password_field("revoke-password-" + std::to_string(n), frame) + why_refused(frame, "revoke-" + c.uuid) +
              "<p><button class=\"danger\">Withdraw certificate</button></p></form></details>";
     out += "</article>";
   }

@@ -10,6 +10,7 @@ std::string html_of(const CertificateSheet& sheet) {
   };
   std::string out = html_begin("Certificate: " + sheet.code) + "<section class=\"sheet\">";
   if (!sheet.withdrawn.empty()) out += p("void", "WITHDRAWN " + sheet.withdrawn);
+  if (!sheet.in_question.empty()) out += p("void", "IN QUESTION: " + sheet.in_question);
   if (sheet.demo) out += p("ribbon", "DEMO: an invented trainee. Nothing here is a record.");
   out += "<h1>Certificate of training</h1>" + p("quiet", "It is certified that") + p("holder", sheet.holder);
   if (sheet.code != sheet.holder) out += p("quiet", "trainee " + sheet.code);

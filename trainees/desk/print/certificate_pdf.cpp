@@ -29,12 +29,14 @@ class CertificatePage {
 
  private:
   void border() {
-    const Colour& colour = sheet_.withdrawn.empty() ? kBlue : kRed;
+    const Colour& colour = sheet_.withdrawn.empty() && sheet_.in_question.empty() ? kBlue : kRed;
     pages_.frame(kEdge, kEdge, PdfPages::kWidth - 2 * kEdge, PdfPages::kHeight - 2 * kEdge, 2.2, colour);
     pages_.frame(kEdge + 5, kEdge + 5, PdfPages::kWidth - 2 * kEdge - 10, PdfPages::kHeight - 2 * kEdge - 10, 0.7,
                  colour);
     if (!sheet_.withdrawn.empty())
       pages_.stamp("WITHDRAWN", kRed);
+    else if (!sheet_.in_question.empty())
+      pages_.stamp("IN QUESTION", kRed);
     else if (sheet_.demo)
       pages_.stamp("DEMO", kRed);
   }
@@ -48,6 +50,7 @@ class CertificatePage {
   void title() {
     y_ = 56;
     std::string above = sheet_.demo ? "DEMO: an invented trainee. Nothing here is a record." : "";
+    if (!sheet_.in_question.empty()) above = "IN QUESTION: " + sheet_.in_question;
     if (!sheet_.withdrawn.empty()) above = "WITHDRAWN " + sheet_.withdrawn;
     if (!above.empty()) middle(above, bold(9), kRed, 3);
     y_ = std::max(y_ + 8, 84.0);

@@ -106,7 +106,8 @@ struct CertificateSheet {
   std::string evidence_words = {};
   std::vector<std::string> not_attested = {};
   std::string certified_by = {}, date = {}, uuid = {};
-  std::string withdrawn = {};  ///< why and when; "" while it holds
+  std::string withdrawn = {};    ///< why and when; "" while it stands
+  std::string in_question = {};  ///< why it may not stand; "" while all that it stands on holds
   std::string newest_utc = {};
   bool demo = false;
 };

@@ -80,7 +80,7 @@ std::vector<std::string> missing_on(const CohortLine& line, const ProgressRules&
   std::vector<std::string> out;
   if (!line.certified_utc.empty()) out.push_back("One is held already, of " + line.certified_utc.substr(0, 10) + ".");
   for (const Judgement& judgement : line.judgements)
-    if (judgement.flag != Flag::kReady && judgement.flag != Flag::kRetentionDue)
+    if (judgement.flag != Flag::kReady && judgement.flag != Flag::kRetentionDue && judgement.flag != Flag::kCertified)
       out.push_back((judgement.flag == Flag::kLearning ? "Competence has not been shown: "
                                                        : std::string(flag_name(judgement.flag)) + ": ") +
                     judgement.evidence + ".");

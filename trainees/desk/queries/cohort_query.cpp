@@ -121,6 +121,7 @@ std::string curve_rows() {
 struct Draft {
   std::int64_t trainee = 0, last_row = 0;
   CohortLine line = {};
+  std::string in_question = {};  ///< of the certificate that is held
   std::vector<CurveAttempt> attempts = {};
   std::vector<double> scores = {};
   double peak_sum = 0;
@@ -135,7 +136,7 @@ class CohortPass {
         filter_(filter),
         now_utc_(now_utc),
         people_(desk::people(connection_)),
-        certificates_(desk::certificates_that_hold(connection_)),
+        certificates_(desk::certificates_held(database)),
         erased_(desk::training_erased(connection_)),
         facts_(read_facts(database)),
         newest_(connection_, "SELECT uuid, exercise_version, started_utc FROM attempt WHERE id = ?") {}
@@ -177,8 +178,10 @@ class CohortPass {
     curve_.emplace_back();
     curve_.back().trainee = trainee;
     curve_.back().line.key = key;
-    if (const auto at = certificates_.find({trainee, key.exercise_id, key.level}); at != certificates_.end())
-      curve_.back().line.certified_utc = at->second;
+    if (const auto at = certificates_.find({trainee, key.exercise_id, key.level}); at != certificates_.end()) {
+      curve_.back().line.certified_utc = at->second.utc;
+      curve_.back().in_question = at->second.in_question;
+    }
   }
 
   void add(Draft& draft, const sql::Statement& row) const {
@@ -243,7 +246,7 @@ class CohortPass {
     };
     line.newest_scores = newest(kSparkScores);
     if (draft.scores.size() >= 3) line.reliability = reliability(newest(rules_.reliability_window), between);
-    line.judgements = judge(draft.attempts, rules_, line.reliability, line.certified_utc, now_utc_);
+    line.judgements = judge(draft.attempts, rules_, line.reliability, line.certified_utc, now_utc_, draft.in_question);
     newest_.bind(draft.last_row).step();
     line.last_uuid = newest_.text(0);
     line.exercise_version = newest_.text(1);
@@ -256,7 +259,7 @@ class CohortPass {
   const CohortFilter& filter_;
   const std::string& now_utc_;
   std::map<std::int64_t, desk::Person> people_;
-  std::map<desk::CertifiedSkill, std::string> certificates_;
+  std::map<desk::CertifiedSkill, desk::HeldCertificate> certificates_;
   std::set<std::int64_t> erased_;
   ByRow<Facts> facts_;  ///< by attempt; 0 takes those of scores again, which nobody asks for
   sql::Statement newest_;

@@ -1,6 +1,7 @@
 #include "trainees/desk/queries/desk_rows.h"
 
 #include "scenarios/scoring/attempt_result.h"
+#include "trainees/records/certificate_standing.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::desk {
@@ -48,13 +49,15 @@ std::map<std::int64_t, Person> people(sqlite3* connection) {
   return out;
 }
 
-std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection) {
-  std::map<CertifiedSkill, std::string> out;
-  sql::Statement rows(connection,
-                      "SELECT trainee_id, exercise_id, level, max(utc) FROM certificate c"
-                      " WHERE NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id)"
-                      " GROUP BY trainee_id, exercise_id, level");
-  while (rows.step()) out[{rows.integer(0), rows.text(1), rows.text(2)}] = rows.text(3);
+std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database) {
+  std::map<CertifiedSkill, HeldCertificate> out;
+  sql::Statement trainee(database.connection(), "SELECT trainee_id FROM certificate WHERE uuid = ?");
+  for (const Certificate& one : AssessmentStore(database).certificates_of("")) {
+    if (!one.revoked_utc.empty() || !trainee.bind(one.uuid).step()) continue;
+    const CertifiedSkill skill{trainee.integer(0), one.exercise_id, one.level};
+    trainee.run();
+    if (!out.contains(skill)) out[skill] = {one.utc, standing_of(database, one).in_question};
+  }
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "trainees/progress/judgement.h"
 #include "trainees/progress/learning_curve.h"
+#include "trainees/store/database.h"
 
 struct sqlite3;
 
@@ -28,8 +29,12 @@ struct CertifiedSkill {
   std::string exercise_id, level;
   auto operator<=>(const CertifiedSkill&) const = default;
 };
-/// Newest certificate of each that holds: its date.
-std::map<CertifiedSkill, std::string> certificates_that_hold(sqlite3* connection);
+struct HeldCertificate {
+  std::string utc = {};
+  std::string in_question = {};  ///< why it may not stand (trainees/records/certificate_standing.h)
+};
+/// Newest certificate of each that was not withdrawn.
+std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database);
 
 /// Whose training data were erased: of them nothing is judged, drawn or counted.
 std::set<std::int64_t> training_erased(sqlite3* connection);

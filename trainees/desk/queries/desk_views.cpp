@@ -11,6 +11,7 @@
 #include "trainees/desk/server/desk_memory.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/signing.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review {
@@ -109,6 +110,7 @@ Frame frame_of(const Request& request, const Desk& desk) {
   frame.pdf = true;
   if (desk.sources.central) frame.central = desk.sources.central();
   frame.signed_in = request.account && !request.account->uuid.empty();
+  if (frame.may_write) frame.no_signature = why_no_signature(desk.database, author_of(request).account_uuid);
   frame.administrator = request.account && request.account->role == Role::kAdministrator;
   frame.demo_goes = frame.administrator && desk.demo && desk.sources.remove_demo;
   return frame;

@@ -37,7 +37,7 @@ void add_certificates(AttemptView& view, Database& database);
 std::vector<CurveDecision> decisions_of_curve(Database& database, const AttemptResult& attempt);
 ShakenCertificates shaken_certificates(Database& database, const std::vector<Certificate>& certificates);
 /// JSON. @param view with `ready`.
-std::string certificate_evidence(const AttemptView& view);
+std::string certificate_evidence(const Database& database, const AttemptView& view);
 /// @throws InputError: the query names a version of rules that is not kept.
 CurriculumView curriculum_view(Desk& desk, const Request& request);
 

@@ -27,7 +27,7 @@ constexpr const char* kCells =
 std::string corrections() {
   return std::string("SELECT a.trainee_id, a.exercise_id, a.level, a.hand, 0, ") + sql::kPassed +
          " - coalesce(s.passed, 0) FROM attempt a LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
-         sql::kDecision +
+         sql::decision() +
          " WHERE a.id IN (SELECT attempt_id FROM verdict_override) AND a.status IN ('completed', 'timeout', 'aborted')";
 }
 

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <tuple>
 
+#include "trainees/integrity/audit.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/record_backup.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -52,7 +54,7 @@ std::vector<BackupFile> backups_of(const fs::path& database) {
   for (fs::directory_iterator it(database.parent_path(), error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
     if (name.starts_with(beginning) && name.ends_with(".backup"))
-      out.push_back({name, utc_of(it->path()), bytes_of(it->path())});
+      out.push_back({name, utc_of(it->path()), bytes_of(it->path()) + bytes_within(recordings_folder(it->path()))});
   }
   std::sort(out.begin(), out.end(),
             [](const BackupFile& a, const BackupFile& b) { return std::tie(b.utc, b.name) < std::tie(a.utc, a.name); });
@@ -112,8 +114,7 @@ RecordView record_view(const Database& database, const std::string& program) {
   if (database.in_memory()) return out;
   out.file = database.file().filename().string();
   out.database_bytes = bytes_of(database.file()) + bytes_of(database.file().string() + "-wal");
-  out.recordings_bytes =
-      bytes_within(database.file().parent_path() / (database.file().stem().string() + ".recordings"));
+  out.recordings_bytes = recordings_size(database);
   out.backups = backups_of(database.file());
   return out;
 }
@@ -135,6 +136,13 @@ AuditView audit_view(const Database& database, const AuditQuestion& asked) {
   while (rows.step())
     out.entries.push_back({rows.integer(0), rows.text(1), name_of_actor(rows.text(2), rows.text(6)), rows.text(3),
                            rows.text(4), rows.text(5)});
+  const std::vector<ClockSetBack> steps = clock_set_back(connection);
+  out.set_back = steps.size();
+  for (const ClockSetBack& step : steps) {
+    const auto entry = std::find_if(out.entries.begin(), out.entries.end(),
+                                    [&](const AuditEntry& e) { return e.position == step.position; });
+    if (entry != out.entries.end()) entry->before_utc = step.before_utc;
+  }
   sql::Statement persons(connection, "SELECT u.actor, " + std::string(kActorName) +
                                          " FROM (SELECT DISTINCT actor FROM audit) u ORDER BY 2, 1");
   while (persons.step()) out.persons.emplace_back(persons.text(0), name_of_actor(persons.text(0), persons.text(1)));

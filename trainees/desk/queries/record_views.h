@@ -32,6 +32,7 @@ struct RecordView {
   std::vector<std::pair<std::string, std::int64_t>> counts = {};
   std::vector<BackupFile> backups = {};                   ///< beside the database, newest first
   std::optional<std::vector<std::string>> problems = {};  ///< of a check just made; empty: sound
+  std::vector<std::string> remarks = {};                  ///< of that check, no problems
 };
 
 struct AuditQuestion {
@@ -42,6 +43,7 @@ struct AuditQuestion {
 struct AuditEntry {
   std::int64_t position = 0;
   std::string utc = {}, who = {}, action = {}, subject = {}, detail = {};
+  std::string before_utc = {};  ///< where the clock was set back before it: what it had said
 };
 
 inline constexpr int kAuditOnPage = 100;
@@ -52,6 +54,7 @@ struct AuditView {
   std::vector<AuditEntry> entries = {};                           ///< of that page, newest first
   std::vector<std::pair<std::string, std::string>> persons = {};  ///< actor and its name
   std::vector<std::string> actions = {};
+  std::size_t set_back = 0;  ///< how often the clock was, in the whole trail
 };
 
 struct RetentionLine {

@@ -10,6 +10,7 @@
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/certificate_standing.h"
 #include "trainees/records/verdicts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -80,7 +81,7 @@ Certificate find_certificate(Database& database, const std::string& uuid) {
 }
 
 /// What was written down when it was given.
-void read_evidence(CertificateView& view, std::string& attempt) {
+void read_evidence(CertificateView& view) {
   const nlohmann::json evidence = nlohmann::json::parse(view.certificate.evidence, nullptr, false);
   if (!evidence.is_object()) {
     view.evidence = view.certificate.evidence;
@@ -90,36 +91,28 @@ void read_evidence(CertificateView& view, std::string& attempt) {
     return evidence.contains(name) && evidence[name].is_string() ? evidence[name].get<std::string>() : std::string();
   };
   view.evidence = text("words");
-  attempt = text("attempt");
   if (evidence.contains("n") && evidence["n"].is_number_integer()) view.n = evidence["n"].get<int>();
   if (evidence.contains("reliability") && evidence["reliability"].is_number())
     view.reliability = evidence["reliability"].get<double>();
 }
 
-/// Those of the curve of `attempt` (all of exercise and level where it is not named) that ended before the certificate
-/// was given.
-std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certificate& certificate,
-                                              const std::string& attempt) {
+/// Those that the certificate stands on, as they counted when it was given.
+std::vector<CertifiedAttempt> attempts_behind(Database& database, const CertificateStanding& standing) {
   std::vector<CertifiedAttempt> out;
   sql::Statement rows(
       database.connection(),
       "SELECT a.uuid, a.started_utc, a.status, coalesce(a.row_hash, ''), a.device_backend, a.hand, "
-      "coalesce(a.chain_position, 0), s.value,"
-      " coalesce(o.passed, s.passed, 0), coalesce(o.printed, '')"
-      " FROM certificate c JOIN attempt a ON a.trainee_id = c.trainee_id AND a.exercise_id = c.exercise_id AND a.level "
-      "= c.level"
-      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
-      " LEFT JOIN attempt e ON e.uuid = ?2"
-      " LEFT JOIN verdict_override o ON o.id = (SELECT max(id) FROM verdict_override WHERE attempt_id = a.id AND utc "
-      "<= c.utc)"
-      " WHERE c.uuid = ?1 AND a.status IN ('completed', 'timeout', 'aborted') AND a.finished_utc <= c.utc"
-      " AND (e.id IS NULL OR (a.hand = e.hand AND a.ruleset_sha256 = e.ruleset_sha256)) ORDER BY a.id");
-  rows.bind(certificate.uuid).bind(attempt);
-  while (rows.step()) {
-    CertifiedAttempt one{rows.text(0), rows.text(1),    rows.text(2), rows.text(3),         rows.text(4),
-                         rows.text(5), rows.integer(6), {},           rows.integer(8) != 0, rows.text(9)};
+      "coalesce(a.chain_position, 0), s.value FROM attempt a"
+      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?");
+  for (const CertifiedBy& by : standing.attempts) {
+    if (!rows.bind(by.row).step()) continue;
+    CertifiedAttempt one{rows.text(0), rows.text(1),    rows.text(2), rows.text(3),   rows.text(4),
+                         rows.text(5), rows.integer(6), {},           by.passed_then, by.decided_then};
     one.score = rows.optional_real(7);
+    one.passed_now = by.passed_now;
+    one.decided_since = by.decided_now;
     out.push_back(std::move(one));
+    rows.run();
   }
   return out;
 }
@@ -171,6 +164,7 @@ CohortReportView cohort_report_view(Desk& desk, const std::map<std::string, std:
   }
   out.exclusions = exclusions_of(desk.database, only.group);
   out.certificates = AssessmentStore(desk.database).certificates_of("");
+  out.shaken = shaken_certificates(desk.database, out.certificates);
   return out;
 }
 
@@ -194,10 +188,10 @@ CertificateView certificate_view(Desk& desk, const std::string& uuid) {
   out.exercise = exercise_title(desk.database, out.certificate.exercise_id);
   for (const auto& [id, person] : desk::people(desk.database.connection()))
     if (person.code == out.certificate.trainee) out.name = person.name;
-  std::string attempt;
-  read_evidence(out, attempt);
-  out.attempts = attempts_behind(desk.database, out.certificate, attempt);
-  for (const auto& [unused, words] : shaken_certificates(desk.database, {out.certificate})) out.since = words;
+  read_evidence(out);
+  const CertificateStanding standing = standing_of(desk.database, out.certificate);
+  out.attempts = attempts_behind(desk.database, standing);
+  if (out.certificate.revoked_utc.empty()) out.in_question = standing.in_question;
   return out;
 }
 

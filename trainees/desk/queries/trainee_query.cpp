@@ -101,7 +101,7 @@ class TraineeQuery {
         rules_(rules),
         now_utc_(now_utc),
         safety_(safety_of(connection_, trainee.id, rules.late_share)),
-        certificates_(desk::certificates_that_hold(connection_)) {}
+        certificates_(desk::certificates_held(database)) {}
 
   CurveDetail curve_detail(LearningCurve curve) {
     CurveDetail out;
@@ -120,8 +120,8 @@ class TraineeQuery {
       out.reliability = reliability(newest_scores(own, rules_.reliability_window),
                                     between_variance(scores, rules_.reliability_window).value_or(0));
     const auto held = certificates_.find({trainee_.id, key.exercise_id, key.level});
-    const std::string certified = held == certificates_.end() ? "" : held->second;
-    out.judgements = judge(out.curve, safety_[key], rules_, out.reliability, certified, now_utc_);
+    const auto [certified, in_question] = held == certificates_.end() ? desk::HeldCertificate{} : held->second;
+    out.judgements = judge(out.curve, safety_[key], rules_, out.reliability, certified, now_utc_, in_question);
     out.retention = retention_dates(certified, as_facts(out.curve), rules_, now_utc_);
     out.benchmarks = CurriculumStore(database_).benchmarks(key.exercise_id, key.level);
     return out;
@@ -134,7 +134,7 @@ class TraineeQuery {
   const ProgressRules& rules_;
   const std::string& now_utc_;
   std::map<CurveKey, std::vector<SafetyRecord>> safety_;
-  std::map<desk::CertifiedSkill, std::string> certificates_;
+  std::map<desk::CertifiedSkill, desk::HeldCertificate> certificates_;
 };
 
 void add_ability(Database& database, const Trainee& trainee, const ProgressRules& rules, TraineeDetail& detail) {

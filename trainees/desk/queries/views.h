@@ -117,7 +117,7 @@ struct DueDate {
   bool over = false;
 };
 
-/// Certificates that hold although the attempt that they cite was decided not passed later: by number, what happened.
+/// Certificates that are in question (trainees/records/certificate_standing.h): by number, why.
 using ShakenCertificates = std::map<std::string, std::string>;
 
 struct TraineeView {
@@ -154,7 +154,8 @@ struct CurveDecision {
 /// A certificate that an attempt's page shows.
 struct CitedCertificate {
   Certificate certificate = {};
-  bool cites = false;  ///< this very attempt is its evidence
+  bool cites = false;            ///< this very attempt is its evidence
+  std::string in_question = {};  ///< why it may not stand
 };
 
 struct AttemptView {

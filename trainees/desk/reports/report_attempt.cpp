@@ -231,14 +231,14 @@ void add_origin(std::vector<Block>& out, const AttemptView& view) {
                          true});
 }
 
-void add_people(std::vector<Block>& out, const AttemptView& view) {
+void add_people(std::vector<Block>& out, const AttemptView& view, bool demo) {
   out.emplace_back(Heading{"Sign-off", 1});
   Table table{"",
               {{"Signed by", 2}, {"Meaning", 1.4}, {"When", 1.8}, {"Note", 4}, {"Bound to", 1.8, false, true}},
               {},
               "Not signed yet."};
   for (const Signature& s : view.signatures)
-    table.rows.push_back({s.signer, words_of(s.meaning), moment_text(s.utc), s.note,
+    table.rows.push_back({author_text(s.signer, s.account_uuid, demo), words_of(s.meaning), moment_text(s.utc), s.note,
                           s.row_hash.substr(0, 16) + (s.row_hash == view.row_hash ? "" : " other bytes")});
   out.emplace_back(std::move(table));
   if (view.ratings.empty()) return;
@@ -290,7 +290,7 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
     out.blocks.emplace_back(Paragraph{report.no_picture, Tone::kQuiet});
   out.blocks.emplace_back(Heading{"Events", 1});
   out.blocks.emplace_back(event_rows(view));
-  add_people(out.blocks, view);
+  add_people(out.blocks, view, setting.demo);
   if (setting.notes) note_blocks(out.blocks, view.notes);
   out.blocks.emplace_back(Heading{"Metrics", 1});
   out.blocks.emplace_back(metric_rows(view));

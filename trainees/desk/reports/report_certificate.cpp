@@ -25,7 +25,7 @@ std::string list_of(const std::set<std::string>& values, const std::string& none
 
 struct Totals {
   std::set<std::string> devices, inputs;
-  int passed = 0;
+  int passed = 0, passed_now = 0;
   bool simulated = true, without_device = true;  ///< each of them
 };
 
@@ -41,6 +41,7 @@ Totals totals_of(const CertificateView& view) {
                                                    : a.backend);
     out.inputs.insert(a.hand);
     out.passed += a.passed ? 1 : 0;
+    out.passed_now += a.passed_now ? 1 : 0;
   }
   return out;
 }
@@ -51,6 +52,19 @@ std::string rule_words(const CertificateView& view, const ReportSetting& setting
   return " Test: LC-CUSUM, failure rates " + number_text(r.adequate) + " adequate and " + number_text(r.inadequate) +
          " inadequate, shown at " + number_text(r.shown_at) + " (at the least " + std::to_string(shortest_run(r)) +
          " passes in a row).";
+}
+
+std::string passed_words(const Totals& totals, const CertificateView& view) {
+  const std::string then = std::to_string(totals.passed) + " of " + std::to_string(view.attempts.size());
+  if (totals.passed == totals.passed_now) return then;
+  return then + " when it was given, " + std::to_string(totals.passed_now) + " as they count now";
+}
+
+std::string result_of(const CertifiedAttempt& a) {
+  const auto words = [](bool passed) { return std::string(passed ? "passed" : "not passed"); };
+  if (!a.decided_since.empty() && a.passed_now != a.passed)
+    return "since: " + words(a.passed_now) + ", by " + a.decided_since;
+  return a.decided_by.empty() ? result_words(a.score.has_value(), a.passed) : words(a.passed) + ", by " + a.decided_by;
 }
 
 std::vector<std::string> not_attested(const Totals& totals) {
@@ -80,20 +94,16 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
       view.attempts.empty() ? none : period_words(view.attempts.front().utc, view.attempts.back().utc);
   out.facts = {
       {"Attempts it rests on", view.n > 0 ? "n = " + std::to_string(view.n) : none},
-      {"Passed", std::to_string(totals.passed) + " of " + std::to_string(view.attempts.size())},
+      {"Passed", passed_words(totals, view)},
       {"Reliability of the mean score", view.reliability ? reliability_words(*view.reliability) : "could not be told"},
       {"Period of the attempts", period},
       {"Rules of progress", "version " + c.rule_version},
       {"Device, input", list_of(totals.devices, none) + "; " + list_of(totals.inputs, none)}};
-  if (!view.since.empty()) out.facts.push_back({"Since then", view.since});
   out.columns = {{"No.", 0.6, true}, {"When (UTC)", 2.2},  {"Score", 0.9, true},
                  {"Result", 2.6},    {"Chain", 0.9, true}, {"Row hash (sha256)", 4.6, false, true}};
   for (std::size_t i = 0; i < view.attempts.size(); ++i) {
     const CertifiedAttempt& a = view.attempts[i];
-    out.evidence.push_back({std::to_string(i + 1), moment_text(a.utc), score_text(a.score),
-                            a.decided_by.empty()
-                                ? result_words(a.score.has_value(), a.passed)
-                                : std::string(a.passed ? "passed" : "not passed") + ", by " + a.decided_by,
+    out.evidence.push_back({std::to_string(i + 1), moment_text(a.utc), score_text(a.score), result_of(a),
                             a.chain_position > 0 ? std::to_string(a.chain_position) : "", a.row_hash.substr(0, 32)});
   }
   const auto found = static_cast<int>(view.attempts.size());
@@ -106,6 +116,7 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
   out.uuid = c.uuid;
   if (!c.revoked_utc.empty()) out.withdrawn = "on " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason;
   out.newest_utc = std::max(c.utc, c.revoked_utc);
+  out.in_question = view.in_question;
   out.demo = setting.demo;
   return out;
 }

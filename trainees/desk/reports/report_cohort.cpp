@@ -82,8 +82,8 @@ Table states(const CohortReportView& view) {
   Table table{"A trainee stands in every state that one of the lines below has.",
               {{"State", 1.5}, {"Trainees", 1, true}, {"Who", 8}},
               {}};
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kIntegrity, Flag::kPlateau,
-                          Flag::kRetentionDue, Flag::kReady}) {
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kIntegrity,
+                          Flag::kPlateau, Flag::kRetentionDue, Flag::kReady, Flag::kCertified}) {
     const auto who = trainees_in_state(view.cohort, flag);
     std::string names;
     for (const CohortEntry* line : who) names += (names.empty() ? "" : ", ") + shown_name(*line);
@@ -221,7 +221,8 @@ Table certificate_table(const CohortReportView& view, const std::vector<CohortEn
     if (line == lines.end()) continue;
     table.rows.push_back(
         {shown_name(*line), line->exercise + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version,
-         c.revoked_utc.empty()
+         view.shaken.contains(c.uuid) ? Cell("in question: " + view.shaken.at(c.uuid), Tone::kBad)
+         : c.revoked_utc.empty()
              ? Cell("holds", Tone::kGood)
              : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad)});
   }

@@ -127,7 +127,7 @@ Table certificate_table(const TraineeView& view) {
     const bool holds = c.revoked_utc.empty();
     const auto shaken = view.shaken.find(c.uuid);
     const Cell held =
-        shaken == view.shaken.end() ? Cell("holds", Tone::kGood) : Cell("holds, but: " + shaken->second, Tone::kBad);
+        shaken == view.shaken.end() ? Cell("holds", Tone::kGood) : Cell("in question: " + shaken->second, Tone::kBad);
     table.rows.push_back(
         {title + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version, evidence_words(c.evidence),
          holds ? held : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad),

@@ -37,10 +37,12 @@ printed::Tone tone_of(Flag flag) {
   switch (flag) {
     case Flag::kUnsafe:
     case Flag::kRelapsed:
+    case Flag::kInQuestion:
     case Flag::kStuck:
     case Flag::kIntegrity:
       return printed::Tone::kBad;
     case Flag::kReady:
+    case Flag::kCertified:
       return printed::Tone::kGood;
     case Flag::kPlateau:
     case Flag::kRetentionDue:

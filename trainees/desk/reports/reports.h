@@ -36,6 +36,7 @@ struct CohortReportView {
   std::vector<Benchmark> benchmarks = {};  ///< newest of each exercise, level and metric
   std::vector<Exclusion> exclusions = {};
   std::vector<Certificate> certificates = {};  ///< everybody's, withdrawn ones too
+  ShakenCertificates shaken = {};
 };
 printed::Report cohort_report(const CohortReportView& view, const ReportSetting& setting);
 
@@ -50,7 +51,9 @@ struct CertifiedAttempt {
   std::int64_t chain_position = 0;
   std::optional<double> score = {};
   bool passed = false;
-  std::string decided_by = {};  ///< who decided otherwise than the score; `passed` is that decision
+  std::string decided_by = {};     ///< who decided otherwise than the score; `passed` is that decision
+  bool passed_now = false;         ///< as it counts today; `passed` is as it counted when the certificate was given
+  std::string decided_since = {};  ///< who has decided since; "" nobody
 };
 struct CertificateView {
   Certificate certificate = {};
@@ -59,7 +62,7 @@ struct CertificateView {
   std::string evidence = {};                    ///< the judgement's sentence
   int n = 0;                                    ///< that the judgement rested on; 0: not recorded
   std::optional<double> reliability = {};
-  std::string since = {};  ///< what happened to what it cites; "" nothing
+  std::string in_question = {};  ///< why it may not stand; "" while all that it stands on holds
 };
 printed::CertificateSheet certificate_sheet(const CertificateView& view, const ReportSetting& setting);
 

@@ -4,8 +4,10 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/routes/page_routes.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/record_backup.h"
 
 namespace trocar::review {
 namespace {
@@ -76,6 +78,7 @@ Response check(const Request& request, Desk& desk) {
   view.problems = desk.database.check();
   for (std::string& problem : AttemptStore(desk.database).check_recordings())
     view.problems->push_back(std::move(problem));
+  view.remarks = audit_remarks(desk.database.connection());
   return html(record_page(view, frame_of(request, desk)));
 }
 
@@ -84,7 +87,9 @@ Response backup(const Request& request, Desk& desk) {
     if (desk.database.in_memory()) throw InputError("this record is kept in memory and has no file to copy");
     std::string time = utc_now();
     std::replace(time.begin(), time.end(), ':', '-');
-    desk.database.backup(desk.database.file().string() + "." + time + ".backup");
+    const bool whole = argument(request.form, "leave") != "recordings";
+    back_up(desk.database, desk.database.file().string() + "." + time + ".backup",
+            whole ? BackedUp::kWithRecordings : BackedUp::kWithoutRecordings);
   } catch (const InputError& error) {
     Frame frame = frame_of(request, desk);
     frame.refused = {"backup", error.what(), {}};

@@ -4,6 +4,7 @@
 #include "trainees/desk/routes/page_routes.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/rating_scales.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar::review {
 namespace {
@@ -11,6 +12,11 @@ namespace {
 std::string commented_attempt(const Request& request, Desk& desk) {
   return AttemptStore(desk.database).find(argument(request.arguments, "attempt")).uuid;
 }
+
+constexpr const char* kDiskFull =
+    "the disk of this machine is full: nothing was written. Make room on it, then send this again; all that is there "
+    "can "
+    "be read on";
 
 Frame refused_frame(const Request& request, Desk& desk, const std::string& form, const std::string& why) {
   Frame frame = frame_of(request, desk);
@@ -23,11 +29,24 @@ Response on_attempt(const Request& request, Desk& desk, const std::string& form,
                     const std::function<Response(const std::string& uuid)>& act) {
   const std::string uuid = commented_attempt(request, desk);
   try {
+    if (request.disk_full) throw DiskFull(kDiskFull);
     return act(uuid);
   } catch (const InputError& error) {
     return {.status = 400,
             .body = attempt_page(attempt_view(desk, request, uuid), refused_frame(request, desk, form, error.what()))};
+  } catch (const DiskFull&) {
+    return {.status = 507,
+            .body = attempt_page(attempt_view(desk, request, uuid), refused_frame(request, desk, form, kDiskFull))};
   }
+}
+
+/// The same of what binds somebody: the password was given again, and was right.
+Response on_signed_attempt(const Request& request, Desk& desk, const std::string& form,
+                           const std::function<Response(const std::string& uuid)>& act) {
+  return on_attempt(request, desk, form, [&](const std::string& uuid) {
+    require_confirmed(request);
+    return act(uuid);
+  });
 }
 
 /// The same of a form on a trainee's page.
@@ -36,10 +55,14 @@ Response on_trainee(const Request& request, Desk& desk, const std::string& code,
   Request asked = request;
   asked.arguments["code"] = code;
   try {
+    if (request.disk_full) throw DiskFull(kDiskFull);
     act();
   } catch (const InputError& error) {
     return {.status = 400,
             .body = trainee_page(trainee_view(desk, asked), refused_frame(request, desk, form, error.what()))};
+  } catch (const DiskFull&) {
+    return {.status = 507,
+            .body = trainee_page(trainee_view(desk, asked), refused_frame(request, desk, form, kDiskFull))};
   }
   return see("/trainee/" + url_part(code) + after);
 }
@@ -61,7 +84,7 @@ Response note_on_attempt(const Request& request, Desk& desk) {
 }
 
 Response sign(const Request& request, Desk& desk) {
-  return on_attempt(request, desk, "sign", [&](const std::string& uuid) {
+  return on_signed_attempt(request, desk, "sign", [&](const std::string& uuid) {
     AssessmentStore(desk.database)
         .sign(uuid, argument(request.form, "meaning"), argument(request.form, "note"), author_of(request));
     return see("/attempt/" + url_part(uuid) + "#sign");
@@ -69,7 +92,7 @@ Response sign(const Request& request, Desk& desk) {
 }
 
 Response override_verdict(const Request& request, Desk& desk) {
-  return on_attempt(request, desk, "override", [&](const std::string& uuid) {
+  return on_signed_attempt(request, desk, "override", [&](const std::string& uuid) {
     const std::string passed = argument(request.form, "passed");
     if (passed != "yes" && passed != "no") throw InputError("decision: say passed or not passed");
     AssessmentStore(desk.database)
@@ -97,7 +120,7 @@ Response rate(const Request& request, Desk& desk) {
 
 /// The evidence is looked at again: what the form was made from may be hours old.
 Response certify(const Request& request, Desk& desk) {
-  return on_attempt(request, desk, "certify", [&](const std::string& uuid) {
+  return on_signed_attempt(request, desk, "certify", [&](const std::string& uuid) {
     const AttemptView view = attempt_view(desk, request, uuid);
     if (!view.ready) {
       std::string why = "no certificate.";
@@ -106,7 +129,7 @@ Response certify(const Request& request, Desk& desk) {
     }
     AssessmentStore(desk.database)
         .certify(view.result.trainee, view.result.exercise_id, view.result.level, view.ready->rule_version,
-                 certificate_evidence(view), author_of(request));
+                 certificate_evidence(desk.database, view), author_of(request));
     return see("/trainee/" + url_part(view.result.trainee) + "#certificates");
   });
 }
@@ -116,7 +139,10 @@ Response revoke(const Request& request, Desk& desk) {
   const std::string uuid = argument(request.arguments, "certificate");
   for (const Certificate& certificate : assessments.certificates_of(""))
     if (certificate.uuid == uuid) {
-      const auto act = [&] { assessments.revoke(uuid, argument(request.form, "reason"), author_of(request)); };
+      const auto act = [&] {
+        require_confirmed(request);
+        assessments.revoke(uuid, argument(request.form, "reason"), author_of(request));
+      };
       return on_trainee(request, desk, certificate.trainee, "revoke-" + uuid, act, "#certificates");
     }
   throw InputError("there is no such certificate in this record");
@@ -133,9 +159,17 @@ Route assessment_form(const std::string& path, const std::string& kind, const st
 using Action = Response (*)(const Request&, Desk&);
 
 Route post(const std::string& path, Action action) {
-  return {"POST", path, Audience::kInstructors, [action](const Request& request, Desk& desk) {
-            return answered(request, desk, 400, [&] { return action(request, desk); });
-          }};
+  Route out{"POST", path, Audience::kInstructors, [action](const Request& request, Desk& desk) {
+              return answered(request, desk, 400, [&] { return action(request, desk); });
+            }};
+  out.keeps_form = true;
+  return out;
+}
+
+Route signed_post(const std::string& path, Action action) {
+  Route out = post(path, action);
+  out.asks_password = true;
+  return out;
 }
 
 }  // namespace
@@ -143,11 +177,11 @@ Route post(const std::string& path, Action action) {
 std::vector<Route> assessment_routes() {
   std::vector<Route> out = {post("/trainee/{code}/note", note_on_trainee),
                             post("/attempt/{attempt}/note", note_on_attempt),
-                            post("/attempt/{attempt}/sign", sign),
-                            post("/attempt/{attempt}/override", override_verdict),
                             post("/attempt/{attempt}/rate", rate),
-                            post("/attempt/{attempt}/certify", certify),
-                            post("/certificate/{certificate}/revoke", revoke)};
+                            signed_post("/attempt/{attempt}/sign", sign),
+                            signed_post("/attempt/{attempt}/override", override_verdict),
+                            signed_post("/attempt/{attempt}/certify", certify),
+                            signed_post("/certificate/{certificate}/revoke", revoke)};
   out.push_back(assessment_form("/trainee/{code}/note", "trainee", "code", "#notes"));
   out.push_back(assessment_form("/attempt/{attempt}/note", "attempt", "attempt", "#notes"));
   out.push_back(assessment_form("/attempt/{attempt}/rate", "attempt", "attempt", "#ratings"));

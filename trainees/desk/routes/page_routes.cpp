@@ -108,6 +108,10 @@ Response see(const std::string& location) {
   return out;
 }
 
+void require_confirmed(const Request& request) {
+  if (!request.unconfirmed.empty()) throw InputError(request.unconfirmed);
+}
+
 Response answered(const Request& request, Desk& desk, int status, const std::function<Response()>& action) {
   try {
     return action();

@@ -13,10 +13,13 @@ std::vector<Route> assessment_routes();  ///< notes, signatures, overrides, cert
 std::vector<Route> film_routes();        ///< films of attempts
 std::vector<Route> station_routes();     ///< the live view, messages
 std::vector<Route> curriculum_routes();  ///< rules, benchmarks, groups
+std::vector<Route> password_routes();    ///< one's own password
 std::vector<Route> admin_routes();       ///< accounts, the record itself, its audit trail, retention, the demo's end
 
 /// What the action answers; a page with the reason where it throws an InputError. @param status of that page.
 Response answered(const Request& request, Desk& desk, int status, const std::function<Response()>& action);
 Response see(const std::string& location);  ///< 303
+/// @throws InputError: why the password that was given again does not count.
+void require_confirmed(const Request& request);
 
 }  // namespace trocar::review

@@ -34,6 +34,11 @@ struct Request {
   std::string token = {};                             ///< goes into every form as <input type=hidden name=token>
   std::string now_utc = {};
   std::string range = {};  ///< header "Range"
+  /// Of a route that asks for the password again: why what was given with the form does not count; "" when it does, and
+  /// where nobody signs in.
+  std::string unconfirmed = {};
+  /// Nothing can be written, not even that who posts came; only a route with keeps_form sees this.
+  bool disk_full = false;
 };
 
 struct Response {
@@ -114,6 +119,7 @@ struct Desk {
 
 enum class Audience : std::uint8_t {
   kEverybody,    ///< sign-in page, style sheet
+  kSignedIn,     ///< whoever has an account, about that account alone
   kOwnData,      ///< trainee of argument {code}, of attempt {attempt} or of {certificate}, instructors, administrators
   kInstructors,  ///< and administrators
   kAdministrators,
@@ -123,6 +129,8 @@ struct Route {
   std::string method, path;
   Audience audience = Audience::kInstructors;
   std::function<Response(const Request&, Desk&)> answer;
+  bool asks_password = false;  ///< of a form: once more, in the field "password"
+  bool keeps_form = false;     ///< answers with the form as it was sent when the disk is full
 };
 
 /// All pages (routes.cpp gathers those of each page's source).

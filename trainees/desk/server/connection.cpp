@@ -6,21 +6,17 @@
 #include <netinet/tcp.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <optional>
 
 #include "trainees/desk/server/socket_owner.h"
 
 namespace trocar::review {
 namespace {
-
-using std::chrono::milliseconds;
-
-constexpr long kAgainToRead = -2, kAgainToWrite = -3;
 
 std::string address_text(const sockaddr_in& address) {
   char text[INET_ADDRSTRLEN] = "";
@@ -39,7 +35,8 @@ std::optional<sockaddr_in> end_of(int socket, bool remote) {
 long plain_some(int socket, bool writing, char* data, std::size_t count) {
   const ssize_t done = writing ? ::send(socket, data, count, MSG_NOSIGNAL) : ::recv(socket, data, count, 0);
   if (done >= 0) return static_cast<long>(done);
-  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return writing ? kAgainToWrite : kAgainToRead;
+  if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)
+    return writing ? Connection::kAgainToWrite : Connection::kAgainToRead;
   return -1;
 }
 
@@ -72,8 +69,7 @@ struct Connection::Tls {
   bool ready = false;
 };
 
-Connection::Connection(int socket, const TlsIdentity* tls, const std::atomic<bool>& stop)
-    : socket_(socket), stop_(stop) {
+Connection::Connection(int socket, const TlsIdentity* tls) : socket_(socket) {
   ::fcntl(socket_, F_SETFL, ::fcntl(socket_, F_GETFL, 0) | O_NONBLOCK);
   const int yes = 1;
   ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
@@ -85,75 +81,36 @@ Connection::~Connection() {
   ::close(socket_);
 }
 
-bool Connection::wait(bool for_writing, Deadline until) const {
-  constexpr milliseconds kSlice{100};
-  while (!stop_) {
-    const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return false;
-    pollfd watched{socket_, static_cast<short>(for_writing ? POLLOUT : POLLIN), 0};
-    const int ready = ::poll(&watched, 1, static_cast<int>(std::min(left, kSlice).count()));
-    if (ready > 0) return true;
-    if (ready < 0 && errno != EINTR) return false;
-  }
-  return false;
-}
-
-long Connection::some(bool writing, char* data, std::size_t count) {
-  if (!tls_) return plain_some(socket_, writing, data, count);
-  if (!tls_->ssl || !tls_->ready) return -1;
+long Connection::greet() {
+  if (!tls_) return 1;
+  if (!tls_->ssl) return -1;
   ERR_clear_error();
-  const int amount = static_cast<int>(std::min<std::size_t>(count, 1U << 20U));
-  return tls_->outcome(writing ? SSL_write(tls_->ssl, data, amount) : SSL_read(tls_->ssl, data, amount));
+  const long result = tls_->outcome(SSL_accept(tls_->ssl));
+  tls_->ready = result > 0;
+  return result;
 }
 
-bool Connection::handshake(Deadline until) {
-  if (!tls_) return true;
-  if (!tls_->ssl) return false;
-  while (true) {
-    ERR_clear_error();
-    const long result = tls_->outcome(SSL_accept(tls_->ssl));
-    if (result > 0) return tls_->ready = true;
-    if (result != kAgainToRead && result != kAgainToWrite) return false;
-    if (!wait(result == kAgainToWrite, until)) return false;
-  }
+long Connection::take(char* into, std::size_t most) {
+  if (!tls_) return plain_some(socket_, false, into, most);
+  ERR_clear_error();
+  return tls_->outcome(SSL_read(tls_->ssl, into, static_cast<int>(most)));
 }
 
-long Connection::read(char* into, std::size_t most, Deadline until) {
-  while (std::chrono::steady_clock::now() < until) {
-    const long count = some(false, into, most);
-    if (count != kAgainToRead && count != kAgainToWrite) return count;
-    if (!wait(count == kAgainToWrite, until)) return -1;
-  }
-  return -1;
+long Connection::put(const char* from, std::size_t count) {
+  if (!tls_) return plain_some(socket_, true, const_cast<char*>(from), count);  // never written to
+  if (!tls_->ready) return -1;
+  ERR_clear_error();
+  return tls_->outcome(SSL_write(tls_->ssl, from, static_cast<int>(std::min<std::size_t>(count, 1U << 20U))));
 }
 
-bool Connection::write(const char* from, std::size_t count, Deadline until) {
-  while (count > 0) {
-    if (std::chrono::steady_clock::now() >= until) return false;
-    const long done = some(true, const_cast<char*>(from), count);  // never written to
-    if (done > 0) {
-      from += done;
-      count -= static_cast<std::size_t>(done);
-    } else if ((done != kAgainToRead && done != kAgainToWrite) || !wait(done == kAgainToWrite, until)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void Connection::finish() {
+void Connection::end() {
   if (tls_ && tls_->ready) SSL_shutdown(tls_->ssl);
   ::shutdown(socket_, SHUT_WR);
-  // What is still on its way is taken for a moment: closing over it would throw the answer away at the other side.
-  constexpr milliseconds kPatience{500};
-  constexpr std::size_t kMost = 4U << 20U;
-  const Deadline until = std::chrono::steady_clock::now() + kPatience;
+}
+
+long Connection::drop() {
   char rest[4096];
-  for (std::size_t taken = 0; taken < kMost && wait(false, until);) {
-    const ssize_t count = ::recv(socket_, rest, sizeof rest, 0);
-    if (count <= 0) return;
-    taken += static_cast<std::size_t>(count);
-  }
+  return plain_some(socket_, false, rest, sizeof rest);
 }
 
 std::string Connection::remote_address() const {
@@ -172,35 +129,6 @@ bool Connection::same_user() const {
   const auto owner =
       socket_owner({there->sin_addr.s_addr, ntohs(there->sin_port)}, {here->sin_addr.s_addr, ntohs(here->sin_port)});
   return owner && (*owner == ::geteuid() || *owner == 0);
-}
-
-std::variant<ReceivedRequest, Refusal> receive_request(Connection& connection, const RequestLimits& limits) {
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const Deadline head_until = now() + milliseconds(limits.head_ms);
-  std::string bytes;
-  std::size_t end = std::string::npos;
-  char piece[4096];
-  while (end == std::string::npos) {
-    if (bytes.size() > limits.head_bytes) return Refusal{431, "The head of the request is too large."};
-    const long count = connection.read(piece, sizeof piece, head_until);
-    if (count <= 0)
-      return bytes.empty() || count == 0 ? Refusal{0, ""} : Refusal{408, "The request took too long to arrive."};
-    const std::size_t from = bytes.size() < 3 ? 0 : bytes.size() - 3;
-    bytes.append(piece, static_cast<std::size_t>(count));
-    end = bytes.find("\r\n\r\n", from);
-  }
-  auto head = parse_head(std::string_view(bytes).substr(0, end + 4), limits);
-  if (auto* refusal = std::get_if<Refusal>(&head)) return *refusal;
-  ReceivedRequest out{std::get<RequestHead>(std::move(head)), bytes.substr(end + 4)};
-  const Deadline body_until = now() + milliseconds(limits.body_ms);
-  while (out.body.size() < out.head.content_length) {
-    const long count =
-        connection.read(piece, std::min(sizeof piece, out.head.content_length - out.body.size()), body_until);
-    if (count <= 0) return count == 0 ? Refusal{0, ""} : Refusal{408, "The request took too long to arrive."};
-    out.body.append(piece, static_cast<std::size_t>(count));
-  }
-  out.body.resize(out.head.content_length);  // one request a connection: what comes behind it is not read
-  return out;
 }
 
 }  // namespace trocar::review

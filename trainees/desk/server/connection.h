@@ -1,19 +1,14 @@
-// One accepted connection, plain or TLS, on which nothing takes longer than it may: every read and write has a
-// deadline, and a request that dribbles in is cut off when its time is over, however busily it dribbles.
+// One accepted connection, plain or TLS, that never waits: every call does what can be done now and says what it would
+// have to wait for. Who waits, and how long at most, is the waiting room's affair (waiting_room.h).
 //
-// Thread: the one that serves it; stop() of the flag it was given may come from any.
+// Thread: one at a time; addresses and same_user() may be asked by the one that serves it.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
-
-#include "trainees/desk/server/request_head.h"
 
 namespace trocar::review {
 
@@ -38,19 +33,25 @@ class TlsIdentity {
 
 class Connection {
  public:
-  /// @param socket accepted; closed with this object. @param tls empty: plain. @param stop set: everything ends at
-  /// once.
-  Connection(int socket, const TlsIdentity* tls, const std::atomic<bool>& stop);
+  /// Instead of a count: it would have to wait, until it can be read from or written to.
+  static constexpr long kAgainToRead = -2, kAgainToWrite = -3;
+
+  /// @param socket accepted; closed with this object. @param tls empty: plain.
+  Connection(int socket, const TlsIdentity* tls);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  bool handshake(Deadline until);
-  /// Bytes read; 0: the other side has ended; -1: too late, or broken.
-  long read(char* into, std::size_t most, Deadline until);
-  bool write(const char* from, std::size_t count, Deadline until);
-  /// Ends it so that the other side still gets what was written, even while it sends.
-  void finish();
+  /// TLS is agreed on. 1: done, or plain; 0 or -1: it failed; or as above.
+  long greet();
+  /// Bytes read; 0: the other side has ended; -1: broken; or as above.
+  long take(char* into, std::size_t most);
+  /// Bytes written; -1: broken; or as above.
+  long put(const char* from, std::size_t count);
+  /// Nothing more is written.
+  void end();
+  /// Throws away what still arrives, as it is on the wire. Bytes; 0, -1: the other side has ended; or kAgainToRead.
+  long drop();
 
   std::string remote_address() const;
   std::string local_address() const;
@@ -60,20 +61,9 @@ class Connection {
 
  private:
   struct Tls;
-  bool wait(bool for_writing, Deadline until) const;
-  long some(bool writing, char* data, std::size_t count);
 
   int socket_;
-  const std::atomic<bool>& stop_;
   std::unique_ptr<Tls> tls_;
 };
-
-struct ReceivedRequest {
-  RequestHead head;
-  std::string body;
-};
-
-/// Reads a whole request. @returns why not, with status 0 when nothing came.
-std::variant<ReceivedRequest, Refusal> receive_request(Connection& connection, const RequestLimits& limits);
 
 }  // namespace trocar::review

@@ -11,6 +11,7 @@
 #include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar::review {
 namespace {
@@ -103,6 +104,8 @@ std::optional<Answer> DeskGate::refuse_audience(RequestContext& context) const {
   if (!context.request.account)
     return Answer{.response = {.status = 401}};  // the form is made by whoever may set a cookie
   const Role role = context.request.account->role;
+  if (audience == Audience::kSignedIn && context.request.account->uuid.empty())
+    return refused(403, "Nobody signs in here, so there is no password. Accounts are made under Accounts.");
   if (audience == Audience::kAdministrators && role != Role::kAdministrator) return refused(403);
   if (audience == Audience::kInstructors && role == Role::kTrainee) return refused(403);
   return {};
@@ -135,8 +138,9 @@ std::optional<Answer> DeskGate::refuse_posted(RequestContext& context) const {
 
 std::optional<Answer> DeskGate::refuse_foreign(RequestContext& context) const {
   Request& request = context.request;
-  if (!request.account || request.account->role != Role::kTrainee ||
-      context.found.route->audience == Audience::kEverybody)
+  const Audience audience = context.found.route->audience;
+  if (!request.account || request.account->role != Role::kTrainee || audience == Audience::kEverybody ||
+      audience == Audience::kSignedIn)
     return {};
   const Account& account = *request.account;
   const auto end = request.arguments.end();
@@ -164,6 +168,7 @@ Answer DeskGate::page(RequestContext& context) {
   const bool staff = context.request.account && context.request.account->role != Role::kTrainee;
   const std::string what = context.incoming.head.method + " " + context.incoming.head.path.substr(0, 200);
   try {
+    if (context.posts()) context.request.disk_full = !recorded_late(context);
     Answer out{.response = context.found.route->answer(context.request, context.desk)};
     const int status = out.response.status;
     if (status < 200 || status > 599 || !header_value(out.response.type))
@@ -171,6 +176,9 @@ Answer DeskGate::page(RequestContext& context) {
     return out;
   } catch (const InputError& error) {
     return refused(400, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");
+  } catch (const DiskFull& error) {
+    say(what + ": " + error.what());
+    return {.response = error_page(507, "", prose_of(context.request.form))};
   } catch (const EnvironmentError& error) {
     say(what + ": " + error.what());
     Answer out = refused(503, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");
@@ -220,7 +228,11 @@ Answer DeskGate::answered(RequestContext& context) {
   if (const auto refusal = refuse_foreign(context)) return *refusal;
   if (!context.number.empty()) request.token = sessions_.token(context.number);
   request.range = head.header("range");
-  return page(context);
+  if (!context.found.route->asks_password) return page(context);
+  confirm(context);
+  Answer out = page(context);
+  renew_session(context);
+  return out;
 }
 
 Answer DeskGate::answer(const IncomingRequest& incoming, Desk& desk) {

@@ -68,6 +68,11 @@ class DeskGate {
   Answer page(RequestContext& context);
   Answer sign_in(RequestContext& context);
   Answer try_sign_in(RequestContext& context, const std::string& login, const std::string& next);
+  struct Try;
+  Try try_password(RequestContext& context, const std::string& login, const std::string& password);
+  void confirm(RequestContext& context);
+  void renew_session(RequestContext& context);
+  bool recorded_late(RequestContext& context);
   Answer sign_out(RequestContext& context);
   Answer ask_to_sign_in(RequestContext& context, int status, const std::string& message, const std::string& login,
                         const std::string& next);
@@ -78,7 +83,7 @@ class DeskGate {
   GateOptions options_;
   RouteTable table_;
   DeskSessions sessions_;
-  SignInLimit limit_;
+  SignInLimit limit_, pin_limit_;  ///< apart: whoever guesses at PINs keeps nobody with a password out
   std::atomic<int> verifying_{0};
 };
 

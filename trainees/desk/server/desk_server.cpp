@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 #include <thread>
 
 #include "haptics/input_error.h"
@@ -16,13 +14,13 @@
 #include "trainees/desk/server/desk_accounts.h"
 #include "trainees/desk/server/page_workers.h"
 #include "trainees/desk/server/sent_answer.h"
+#include "trainees/desk/server/waiting_room.h"
 
 namespace trocar::review {
 namespace {
 
-constexpr int kConnections = 32;   ///< served at once
-constexpr int kOfOneAddress = 16;  ///< so that one visitor never takes all
-constexpr int kBacklog = 128;
+constexpr int kServed = 32;  ///< at once, of those whose requests are whole
+constexpr int kBacklog = 256;
 
 std::vector<std::string> machine_addresses() {
   std::vector<std::string> out;
@@ -44,24 +42,11 @@ std::string machine_name() {
   return name;
 }
 
-/// How many connections every address has.
-class AddressCount {
+/// Accepting is all that the library's own threads are for: what is accepted goes to the waiting room.
+class OnTheSpot : public httplib::TaskQueue {
  public:
-  bool enter(const std::string& address) {
-    const std::scoped_lock lock(mutex_);
-    int& count = counts_[address];
-    if (count >= kOfOneAddress) return false;
-    ++count;
-    return true;
-  }
-  void leave(const std::string& address) {
-    const std::scoped_lock lock(mutex_);
-    if (const auto at = counts_.find(address); at != counts_.end() && --at->second <= 0) counts_.erase(at);
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, int> counts_;
+  void enqueue(std::function<void()> task) override { task(); }
+  void shutdown() override {}
 };
 
 }  // namespace
@@ -73,16 +58,18 @@ struct DeskServer::Impl : httplib::Server {
   }
   void bind();
   bool process_and_close_socket(socket_t socket) override;
-  void serve(Connection& connection);
-  Answer answer_to(Connection& connection, bool& head_only);
+  void open();
+  void close();
+  void serve(const std::shared_ptr<Connection>& connection, Received received);
+  Answer answer_to(const Connection& connection, Received received, bool& head_only);
 
   DeskServerOptions options;
   std::unique_ptr<TlsIdentity> tls;
   std::unique_ptr<PageWorkers> workers;
   std::unique_ptr<DeskGate> gate;
   std::thread listener;
-  std::atomic<bool> ends{false};
-  AddressCount connections;
+  std::unique_ptr<httplib::ThreadPool> servers;  ///< pages are made and answers composed: they never wait for a visitor
+  std::unique_ptr<WaitingRoom> room;
   int bound_port = 0;
   bool listened = false;  ///< the library closes the port itself, once it has listened
 };
@@ -141,34 +128,45 @@ void DeskServer::Impl::bind() {
                            " is taken by another program, or not allowed to this user: "
                            "end that program, or choose another port with --port (0: any that is free)");
   ::listen(svr_sock_, kBacklog);
-  new_task_queue = [] { return new httplib::ThreadPool(kConnections); };
+  new_task_queue = [] { return new OnTheSpot; };
+}
+
+void DeskServer::Impl::open() {
+  servers = std::make_unique<httplib::ThreadPool>(kServed);
+  RoomLimits limits;
+  limits.request = options.limits;
+  room = std::make_unique<WaitingRoom>(limits, [this](std::shared_ptr<Connection> connection, Received received) {
+    servers->enqueue([this, connection = std::move(connection),
+                      request = std::make_shared<Received>(std::move(received))]() mutable {
+      serve(connection, std::move(*request));
+    });
+  });
+}
+
+/// Those who serve first: they still give answers to the room.
+void DeskServer::Impl::close() {
+  servers->shutdown();
+  room.reset();
 }
 
 bool DeskServer::Impl::process_and_close_socket(socket_t socket) {
-  Connection connection(socket, tls.get(), ends);
-  const std::string address = connection.remote_address();
-  if (!connections.enter(address)) return false;
-  try {
-    serve(connection);
-  } catch (const std::exception& error) {
-    if (options.log) options.log(error.what());
-  }
-  connections.leave(address);
+  room->enter(std::make_shared<Connection>(socket, tls.get()));
   return true;
 }
 
-void DeskServer::Impl::serve(Connection& connection) {
-  if (!connection.handshake(std::chrono::steady_clock::now() + std::chrono::milliseconds(options.limits.head_ms)))
-    return;
-  bool head_only = false;
-  const Answer answer = answer_to(connection, head_only);
-  if (answer.response.status == 0) return;
-  const Deadline until = std::chrono::steady_clock::now() + std::chrono::milliseconds(options.limits.write_ms);
-  if (send_answer(connection, answer.response, gate->headers(answer), head_only, until)) connection.finish();
+void DeskServer::Impl::serve(const std::shared_ptr<Connection>& connection, Received received) {
+  std::string bytes;
+  try {
+    bool head_only = false;
+    const Answer answer = answer_to(*connection, std::move(received), head_only);
+    if (answer.response.status != 0) bytes = answer_bytes(answer.response, gate->headers(answer), head_only);
+  } catch (const std::exception& error) {
+    if (options.log) options.log(error.what());
+  }
+  room->send(connection, std::move(bytes));
 }
 
-Answer DeskServer::Impl::answer_to(Connection& connection, bool& head_only) {
-  auto received = receive_request(connection, options.limits);
+Answer DeskServer::Impl::answer_to(const Connection& connection, Received received, bool& head_only) {
   if (const auto* refusal = std::get_if<Refusal>(&received))
     return {.response = refusal->status == 0 ? Response{.status = 0} : error_page(refusal->status, refusal->why)};
   auto& request = std::get<ReceivedRequest>(received);
@@ -195,15 +193,16 @@ DeskServer::~DeskServer() { stop(); }
 void DeskServer::start() {
   if (impl_->listener.joinable()) return;
   impl_->listened = true;
+  impl_->open();
   impl_->listener = std::thread([this] { impl_->listen_after_bind(); });
   while (!impl_->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void DeskServer::stop() {
   if (!impl_ || !impl_->listener.joinable()) return;
-  impl_->ends = true;
   impl_->httplib::Server::stop();
   impl_->listener.join();
+  impl_->close();
 }
 
 int DeskServer::port() const { return impl_->bound_port; }

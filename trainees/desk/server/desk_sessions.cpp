@@ -92,6 +92,12 @@ void DeskSessions::end(const std::string& number) {
   sessions_.erase(key);
 }
 
+void DeskSessions::mark_recorded(const std::string& number) {
+  const std::string key = digest(session_key_, number);
+  const std::scoped_lock lock(mutex_);
+  if (const auto at = sessions_.find(key); at != sessions_.end()) at->second.session.recorded = true;
+}
+
 std::size_t DeskSessions::count() const {
   const std::scoped_lock lock(mutex_);
   return sessions_.size();

@@ -24,8 +24,9 @@ struct SessionLimits {
 };
 
 struct Session {
-  std::string account;  ///< UUID; "" for the station's own instructor
-  std::string stamp;    ///< of the account's sign-in when it began (desk_accounts.h)
+  std::string account;   ///< UUID; "" for the station's own instructor
+  std::string stamp;     ///< of the account's sign-in when it began (desk_accounts.h)
+  bool recorded = true;  ///< its beginning stands in the audit trail; else the disk was full, and it may only read
 };
 
 class DeskSessions {
@@ -43,6 +44,7 @@ class DeskSessions {
   /// The session, which counts as used now.
   std::optional<Session> find(const std::string& number, DeskTime now);
   void end(const std::string& number);
+  void mark_recorded(const std::string& number);
   std::size_t count() const;
 
   /// What forms carry for that number.

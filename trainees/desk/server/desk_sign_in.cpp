@@ -5,6 +5,8 @@
 #include "trainees/desk/server/desk_accounts.h"
 #include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/records/password_rules.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar::review {
 namespace {
@@ -83,38 +85,101 @@ Answer DeskGate::sign_in(RequestContext& context) {
   return try_sign_in(context, form["login"], form["next"]);
 }
 
-Answer DeskGate::try_sign_in(RequestContext& context, const std::string& login, const std::string& next) {
-  const std::string &password = context.request.form["password"],
-                    who = printable(login) + " from " + context.incoming.address;
+/// What came of a password that was given.
+struct DeskGate::Try {
+  std::optional<Account> account = {};  ///< it was right
+  std::string stamp = {};               ///< of the sign-in, then
+  int wait_s = 0;                       ///< it was not looked at: try again after so long
+  std::string why = {};                 ///< it was not looked at
+};
+
+DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string& login, const std::string& password) {
+  const std::string who = printable(login) + " from " + context.incoming.address;
+  SignInLimit& limit = looks_like_pin(password) ? pin_limit_ : limit_;
   const Counted counted(verifying_);
-  if (counted.before() >= kVerifyingAtOnce) {
-    Answer busy = ask_to_sign_in(context, 429, "Many sign in at this moment. Try again.", login, next);
-    busy.retry_after_s = 2;
-    return busy;
-  }
-  if (const int seconds = limit_.begin(login, context.incoming.address, context.now); seconds > 0) {
+  if (counted.before() >= kVerifyingAtOnce) return {.wait_s = 2, .why = "Many sign in at this moment. Try again."};
+  if (const int seconds = limit.begin(login, context.incoming.address, context.now); seconds > 0) {
     say("sign-in held back: " + who);
-    Answer late = ask_to_sign_in(context, 429, waiting_words(seconds), login, next);
-    late.retry_after_s = seconds;
-    return late;
+    return {.wait_s = seconds, .why = waiting_words(seconds)};
   }
   AccountStore accounts(context.desk.database);
-  const auto account = accounts.verify(login, password);
-  const std::string stamp = account ? sign_in_stamp(context.desk.database, account->uuid) : "";
-  if (stamp.empty()) {
-    say("sign-in refused: " + who);
-    if (limit_.tell_held_back(login, context.incoming.address, context.now)) {
-      const auto known = accounts.find(login);
-      accounts.held_back(known ? known->uuid : "");
-    }
-    return ask_to_sign_in(context, 401, "Login or password is wrong.", login, next);
+  Try out{.account = accounts.verify(login, password)};
+  if (out.account) out.stamp = sign_in_stamp(context.desk.database, out.account->uuid);
+  if (!out.stamp.empty()) {
+    limit.was_right(login, context.incoming.address);
+    return out;
   }
-  limit_.was_right(login, context.incoming.address);
-  accounts.signed_in(account->uuid);  // what cannot be recorded does not happen
+  say("sign-in refused: " + who);
+  if (limit.tell_held_back(login, context.incoming.address, context.now)) {
+    const auto known = accounts.find(login);
+    try {
+      accounts.held_back(known ? known->uuid : "");
+    } catch (const DiskFull& error) {
+      say(error.what());
+    }
+  }
+  return {};
+}
+
+Answer DeskGate::try_sign_in(RequestContext& context, const std::string& login, const std::string& next) {
+  const Try tried = try_password(context, login, context.request.form["password"]);
+  if (tried.wait_s > 0) {
+    Answer late = ask_to_sign_in(context, 429, tried.why, login, next);
+    late.retry_after_s = tried.wait_s;
+    return late;
+  }
+  if (!tried.account) return ask_to_sign_in(context, 401, "Login or password is wrong.", login, next);
+  Session session{tried.account->uuid, tried.stamp};
+  try {
+    AccountStore(context.desk.database).signed_in(session.account);  // what cannot be recorded does not happen
+  } catch (const DiskFull&) {  // but for reading: who finds out what to do about it must get in
+    session.recorded = false;
+    say("the disk is full: this sign-in is not on record, and may read only");
+  }
   sessions_.end(context.number);
-  set_cookie(context, sessions_.begin({account->uuid, stamp}, context.now));
-  say("signed in: " + who);
-  return redirection(first_page(*account, next));
+  set_cookie(context, sessions_.begin(session, context.now));
+  say("signed in: " + printable(login) + " from " + context.incoming.address);
+  return redirection(first_page(*tried.account, next));
+}
+
+/// A browser that stands open is not the person: what binds somebody asks for the password again.
+void DeskGate::confirm(RequestContext& context) {
+  Request& request = context.request;
+  const std::string password = request.form["password"];
+  request.form.erase("password");
+  if (!request.account || request.account->uuid.empty()) return;
+  if (password.empty()) {
+    request.unconfirmed = "your password is missing: it is asked for again here";
+    return;
+  }
+  const Try tried = try_password(context, request.account->login, password);
+  if (tried.account) return;
+  request.unconfirmed = tried.why.empty() ? "the password is wrong; nothing was written" : tried.why;
+}
+
+/// Whoever came while the disk was full is put on record before anything is written in their name.
+/// @returns false: it still is full, and the route gives the form back. @throws DiskFull where the route cannot.
+bool DeskGate::recorded_late(RequestContext& context) {
+  const auto session = sessions_.find(context.number, context.now);
+  if (!session || session->recorded) return true;
+  try {
+    AccountStore(context.desk.database).signed_in(session->account);
+  } catch (const DiskFull&) {
+    if (!context.found.route->keeps_form) throw;
+    return false;
+  }
+  sessions_.mark_recorded(context.number);
+  return true;
+}
+
+/// A new password ends every sign-in of the account but the one that set it.
+void DeskGate::renew_session(RequestContext& context) {
+  if (!context.request.account || context.request.account->uuid.empty()) return;
+  const std::string stamp = sign_in_stamp(context.desk.database, context.request.account->uuid);
+  const auto session = sessions_.find(context.number, context.now);
+  if (!session || stamp.empty() || stamp == session->stamp) return;
+  sessions_.end(context.number);
+  set_cookie(context, sessions_.begin({context.request.account->uuid, stamp}, context.now));
 }
 
 Answer DeskGate::sign_out(RequestContext& context) {
@@ -127,7 +192,11 @@ Answer DeskGate::sign_out(RequestContext& context) {
   const auto session = sessions_.find(context.number, context.now);
   sessions_.end(context.number);
   set_cookie(context, "");
-  if (session && !session->account.empty()) AccountStore(context.desk.database).signed_out(session->account);
+  try {
+    if (session && !session->account.empty()) AccountStore(context.desk.database).signed_out(session->account);
+  } catch (const DiskFull& error) {  // who goes is gone
+    say(error.what());
+  }
   return redirection("/sign-in");
 }
 

@@ -23,12 +23,20 @@ void must_be_readable(const std::filesystem::path& file) {
     throw InputError(file.string() + ": cannot be read");
 }
 
+/// Whoever has the key can read and write what goes between a browser and the desk.
+void must_be_private(const std::filesystem::path& key) {
+  using std::filesystem::perms;
+  if ((std::filesystem::status(key).permissions() & (perms::group_all | perms::others_all)) != perms::none)
+    throw InputError(key.string() + ": other users may open this private key; take their rights away first: chmod 600");
+}
+
 }  // namespace
 
 TlsIdentity::TlsIdentity(const std::filesystem::path& certificate, const std::filesystem::path& key)
     : context_(nullptr) {
   must_be_readable(certificate);
   must_be_readable(key);
+  must_be_private(key);
   std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
   if (!context) throw EnvironmentError("TLS cannot be set up on this machine");
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);

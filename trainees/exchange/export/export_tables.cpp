@@ -162,7 +162,7 @@ const ExportTable& attempts_table() {
   static const std::string rows = std::string(
                                       "FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
                                       " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0") +
-                                  sql::kDecision + " WHERE a.id = ?";
+                                  sql::decision() + " WHERE a.id = ?";
   static const ExportTable table{"attempts", attempt_columns(), rows};
   return table;
 }

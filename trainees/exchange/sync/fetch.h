@@ -13,9 +13,6 @@
 
 namespace trocar::sync {
 
-/// Actor of entries about rows that came from the centre: nobody here wrote them.
-inline constexpr const char* kFromCentre = "centre";
-
 /// Of a table at the centre only these rows. @param condition SQL with c for the row, $2 and on for the parameters.
 struct Wanted {
   std::int64_t since = -1;  ///< that arrived after this number; -1: all

@@ -6,6 +6,7 @@
 #include "trainees/exchange/sync/station.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
+#include "trainees/integrity/sealed_rows.h"
 
 namespace trocar::sync {
 namespace {

@@ -12,6 +12,7 @@
 #include "trainees/exchange/sync/fetch.h"
 #include "trainees/exchange/sync/station.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"

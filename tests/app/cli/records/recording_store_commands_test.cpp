@@ -89,7 +89,7 @@ TEST_F(StoreCommands, ADecisionCountsInEveryListAndIsNamedBesideTheScoresOwnVerd
   {
     Database database(file_);
     const AttemptSummary failed = AttemptStore(database).find("2");
-    AssessmentStore(database).override_verdict(failed.uuid, true, "The stand slipped twice", {"", "Dr B"});
+    AssessmentStore(database).override_verdict(failed.uuid, true, "The stand slipped twice", {"0192-b", "Dr B"});
   }
   EXPECT_EQ(trainee_show({file_, "T-one"}, out_, err_), 0);
   EXPECT_NE(out_.str().find("2 attempts, 2 passed"), std::string::npos) << out_.str();

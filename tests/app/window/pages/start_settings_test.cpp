@@ -99,7 +99,7 @@ TEST_F(PageTest, AStationThatAsksForThePinHasAFieldForIt) {
   model_->sign_out();
   {
     Database database(bench_.options().database, OpenMode::kExisting);
-    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-4", "246810", "");
+    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-4", "580274", "");
   }
   model_->settings().ask_pin = true;
   type_code("T-4");
@@ -107,9 +107,9 @@ TEST_F(PageTest, AStationThatAsksForThePinHasAFieldForIt) {
   frame();
   ASSERT_TRUE(sees("Sign in as T-4"));
   frame();  // its field has the focus
-  frame(typed("246810"));
+  frame(typed("580274"));
   frame();
-  EXPECT_FALSE(sees("246810")) << "nobody reads it over a shoulder";
+  EXPECT_FALSE(sees("580274")) << "nobody reads it over a shoulder";
   tap(kKeyEnter);
   EXPECT_EQ(model_->trainee(), "T-4");
 }

@@ -92,7 +92,7 @@ TEST(PracticeModel, AStationThatAsksForThePinTakesTheRightOneAndWaitsAfterEachWr
   model->sign_out();
   {
     Database database(bench.options().database, OpenMode::kExisting);
-    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-1", "246810", "");
+    AccountStore(database).add("ann", "Ann", Role::kTrainee, "T-1", "580274", "");
   }
   EXPECT_EQ(model->code_asks("T-1"), Asks::kNothing) << "not unless the station asks";
   model->settings().ask_pin = true;
@@ -104,19 +104,19 @@ TEST(PracticeModel, AStationThatAsksForThePinTakesTheRightOneAndWaitsAfterEachWr
   model->sign_out();
   EXPECT_EQ(model->sign_in("T-1"), "Type your PIN.");
   EXPECT_EQ(model->sign_in("t-1", "111111"), "This PIN is wrong. Wait 1 s, then try again.");
-  EXPECT_EQ(model->sign_in("T-1", "246810"), "Wait 1 s, then try again.") << "whatever is typed";
+  EXPECT_EQ(model->sign_in("T-1", "580274"), "Wait 1 s, then try again.") << "whatever is typed";
   EXPECT_TRUE(model->is_guest());
   std::this_thread::sleep_for(std::chrono::milliseconds(1050));
   EXPECT_EQ(model->sign_in("T-1", "111111"), "This PIN is wrong. Wait 2 s, then try again.");
   std::this_thread::sleep_for(std::chrono::milliseconds(2050));
-  EXPECT_EQ(model->sign_in("T-1", "246810"), "");
+  EXPECT_EQ(model->sign_in("T-1", "580274"), "");
   EXPECT_EQ(model->trainee(), "T-1");
   ModelOptions straight = bench.options();
   straight.trainee = "T-1";
   EXPECT_THROW(bench.model(straight), InputError) << "not round the PIN by the command line";
   Database database(bench.options().database, OpenMode::kExisting);
   AccountStore(database).set_disabled("ann", true, "");
-  EXPECT_EQ(model->sign_in("T-1", "246810"), "The account of this code is disabled: ask your teacher.");
+  EXPECT_EQ(model->sign_in("T-1", "580274"), "The account of this code is disabled: ask your teacher.");
 }
 
 TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {
@@ -206,7 +206,7 @@ TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsO
   const std::string uuid = model->past(first.id)[1].summary.uuid;
   {
     Database db(bench.options().database);
-    AssessmentStore(db).override_verdict(uuid, true, "The stand slipped twice", {"", "Dr B"});
+    AssessmentStore(db).override_verdict(uuid, true, "The stand slipped twice", {"0192-b", "Dr B"});
   }
   EXPECT_TRUE(model->progress(first.id, "L2").unlocked);
   EXPECT_EQ(model->progress(first.id, "L1").passed, 3);

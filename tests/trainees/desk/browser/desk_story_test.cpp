@@ -69,6 +69,7 @@ class DeskStory : public BrowsedDesk {
 
   void sign_and_write() {
     browser_->type("#sign-note", "seen with the trainee");
+    browser_->type("#sign-password", kDeskPassword);
     browser_->follow("#sign form[action$='/sign'] button");
     EXPECT_NE(browser_->text("#sign tbody").find("Dr Ines Brandt"), std::string::npos);
     // What is refused is not lost: three spaces pass the browser, not the desk.

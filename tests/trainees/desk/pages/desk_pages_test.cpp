@@ -95,8 +95,8 @@ TEST(Frame, WordsForDatesTimesNumbers) {
 
 TEST(Frame, EveryStateHasItsOwnShapeWordAndStyle) {
   std::vector<std::string> seen;
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
-                          Flag::kRetentionDue, Flag::kReady, Flag::kLearning}) {
+  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kPlateau,
+                          Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kLearning}) {
     const std::string html = badge(flag);
     EXPECT_EQ(std::find(seen.begin(), seen.end(), html), seen.end());
     seen.push_back(html);

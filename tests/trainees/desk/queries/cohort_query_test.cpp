@@ -190,7 +190,7 @@ TEST(CohortLines, CertificatesThatHoldBringPeopleBack) {
   const Certificate first = assessments.certify("A", "surface-touch", "L1", "1", "{}", {"", "Dr. B"});
   const auto after = [&](int days) { return utc_of_seconds(*seconds_of_utc(first.utc) + days * kSecondsADay); };
   EXPECT_EQ(cohort_lines(database, {}, {}, after(13))[0].certified_utc, first.utc);
-  EXPECT_EQ(cohort_lines(database, {}, {}, after(13))[0].judgements.front().flag, Flag::kLearning);
+  EXPECT_EQ(cohort_lines(database, {}, {}, after(13))[0].judgements.front().flag, Flag::kCertified);
   EXPECT_EQ(cohort_lines(database, {}, {}, after(14))[0].judgements.front().flag, Flag::kRetentionDue);
   assessments.revoke(first.uuid, "given to the wrong person", {"", "Dr. B"});
   EXPECT_EQ(cohort_lines(database, {}, {}, after(14))[0].certified_utc, "");

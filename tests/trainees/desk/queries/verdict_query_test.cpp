@@ -9,7 +9,7 @@ namespace trocar::verdict_query_test {
 namespace {
 
 constexpr const char* kNow = "2026-06-01T12:00:00Z";
-const Author kTeacher{"", "Dr B"};
+const Author kTeacher{"0192-b", "Dr B"};
 
 /// Without anything critical, so that only passes count.
 AttemptId tried(Database& database, const std::string& who, double score, const std::string& level = "L1") {

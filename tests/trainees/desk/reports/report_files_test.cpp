@@ -59,7 +59,7 @@ class ReportFiles : public testing::Test {
         R"(","n":14,"reliability":0.83,"rules":"1","words":"competence shown at attempt 14 of 14; a person decides"})";
     return AssessmentStore(database_)
         .certify(trainee_, cited_.exercise_id, cited_.level, "1", evidence.empty() ? json : evidence,
-                 {"", "Dr Ines Okafor"})
+                 {"0192-i", "Dr Ines Okafor"})
         .uuid;
   }
 
@@ -114,9 +114,10 @@ TEST_F(ReportFiles, TheTraineesReportHoldsEveryAttemptOfTheRecord) {
 }
 
 TEST_F(ReportFiles, AnOverrideIsShownWhereverTheAttemptIs) {
-  AssessmentStore(database_).override_verdict(attempt_, false, "Camera failed in the middle", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).override_verdict(attempt_, false, "Camera failed in the middle",
+                                              {"0192-i", "Dr Ines Okafor"});
   AssessmentStore(database_).override_verdict(attempt_, true, "Second thought: the film is fine",
-                                              {"", "Dr Ines Okafor"});
+                                              {"0192-i", "Dr Ines Okafor"});
   const ReadPdf trainee = read("/report/trainee/" + trainee_ + ".pdf");
   EXPECT_TRUE(trainee.holds("passed by decision of Dr Ines"));
   EXPECT_TRUE(trainee.holds("Second thought:"));
@@ -170,7 +171,7 @@ TEST_F(ReportFiles, EvidenceInWordsAloneIsPrintedAsItStands) {
 
 TEST_F(ReportFiles, AWithdrawnCertificateSaysSo) {
   const std::string uuid = certify();
-  AssessmentStore(database_).revoke(uuid, "Device was out of calibration", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).revoke(uuid, "Device was out of calibration", {"0192-i", "Dr Ines Okafor"});
   EXPECT_TRUE(read("/report/certificate/" + uuid + ".pdf").holds("WITHDRAWN on "));
   EXPECT_TRUE(read("/report/trainee/" + trainee_ + ".pdf").holds("WITHDRAWN "));
 }
@@ -207,7 +208,7 @@ TEST_F(ReportFiles, ThePictureIsInItOrTheReasonWhyNot) {
 }
 
 TEST_F(ReportFiles, NotesOnlyWhereTheyAreAskedFor) {
-  AssessmentStore(database_).add_note(trainee_, "", "Lets go too early", {"", "Dr Ines Okafor"});
+  AssessmentStore(database_).add_note(trainee_, "", "Lets go too early", {"0192-i", "Dr Ines Okafor"});
   EXPECT_FALSE(read("/report/trainee/" + trainee_ + ".pdf").holds("Lets go too early"));
   EXPECT_TRUE(read("/report/trainee/" + trainee_ + ".pdf", {{"notes", "yes"}}).holds("Lets go too early"));
 }

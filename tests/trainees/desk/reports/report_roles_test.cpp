@@ -18,7 +18,7 @@ class ReportRoles : public DeskTest {
   std::string certify(const std::string& attempt) {
     const AttemptSummary s = AttemptStore(database_).find(attempt);
     return AssessmentStore(database_)
-        .certify(s.trainee, s.exercise_id, s.level, "1", "14 passes in a row", {"", "Dr Ines Okafor"})
+        .certify(s.trainee, s.exercise_id, s.level, "1", "14 passes in a row", {"0192-i", "Dr Ines Okafor"})
         .uuid;
   }
   int status(const std::string& path, const Visitor& visitor) { return ask("GET", path, visitor).response.status; }

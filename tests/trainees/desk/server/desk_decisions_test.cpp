@@ -8,6 +8,7 @@
 #include "tests/trainees/desk/pages/page_samples.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_queries.h"
+#include "trainees/desk/queries/report_views.h"
 #include "trainees/desk/routes/route_table.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
@@ -138,13 +139,36 @@ TEST_F(DeskDecisions, TheAttemptsPageShowsTheCertificatesThatHoldAndWhoGaveThem)
   EXPECT_NE(beside.find("Certificate for surface-touch L1"), std::string::npos) << beside;
   EXPECT_EQ(beside.find("cites this attempt"), std::string::npos) << beside;
   decide(last_, false);
-  EXPECT_NE(text(path_of(last_), "sign").find("This attempt is not passed any more"), std::string::npos);
+  EXPECT_NE(
+      text(path_of(last_), "sign").find("In question: the attempt that it cites was decided not passed by Dr Ines"),
+      std::string::npos);
   const std::string uuid = AssessmentStore(database_).certificates_of("steady")[0].uuid;
   ASSERT_EQ(ask("POST", "/certificate/" + uuid + "/revoke", {{"reason", kReason}}).status, 303);
   EXPECT_NE(text(path_of(last_), "sign").find("Withdrawn"), std::string::npos);
   who_ = Account{"a-2", "steady", "S", Role::kTrainee, "steady"};
   EXPECT_NE(text(path_of(last_), "sign").find("Certificate for surface-touch L1"), std::string::npos)
       << "the trainee sees it too";
+}
+
+TEST_F(DeskDecisions, ACertificateWhoseAttemptsNoLongerCountIsInQuestionEverywhere) {
+  ASSERT_EQ(ask("POST", path_of(last_) + "/certify").status, 303);
+  EXPECT_NE(ask("GET", "/", {{"state", "certified"}}).body.find("30 of 30 attempts passed"), std::string::npos)
+      << "a state of its own, not learning";
+  EXPECT_EQ(ask("GET", "/").body.find("class=\"badge in-question\""), std::string::npos);
+  const AttemptSummary early = AttemptStore(database_).list({"steady", "", 0}).back();
+  EXPECT_EQ(ask("POST", "/attempt/" + early.uuid + "/override", {{"passed", "no"}, {"reason", kReason}}).status, 303);
+  const std::string why = "1 of the 30 attempts that it stands on was decided not passed by Dr Ines Okafor on ";
+  for (const std::string& path : {path_of(last_), std::string("/trainee/steady"), std::string("/")})
+    EXPECT_NE(ask("GET", path).body.find(why), std::string::npos) << path;
+  EXPECT_NE(ask("GET", "/cohort.csv").body.find("in question"), std::string::npos);
+  const std::string uuid = AssessmentStore(database_).certificates_of("steady")[0].uuid;
+  const std::string sheet =
+      certificate_file(desk_, uuid, {.format = ReportFormat::kHtml, .now_utc = "2026-06-01T10:00:00Z"});
+  EXPECT_NE(sheet.find("IN QUESTION: " + why), std::string::npos) << sheet;
+  EXPECT_NE(sheet.find("30 of 30 when it was given, 29 as they count now"), std::string::npos);
+  EXPECT_NE(sheet.find("since: not passed, by Dr Ines Okafor"), std::string::npos);
+  EXPECT_EQ(ask("POST", "/attempt/" + early.uuid + "/override", {{"passed", "yes"}, {"reason", kReason}}).status, 303);
+  EXPECT_EQ(ask("GET", "/trainee/steady").body.find("In question"), std::string::npos) << "it holds again";
 }
 
 TEST_F(DeskDecisions, ReliabilityStandsBesideEveryDecision) {

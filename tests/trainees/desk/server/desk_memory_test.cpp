@@ -79,7 +79,7 @@ TEST_F(DeskMemoryTest, SeesWhatAnotherConnectionCommits) {
   expect_fresh("an attempt");
   EXPECT_TRUE(
       std::any_of(lines().begin(), lines().end(), [&](const CohortLine& line) { return line.last_uuid == uuid; }));
-  AssessmentStore(other_).override_verdict(uuid, false, "The camera was knocked", {"", "Ida Adler"});
+  AssessmentStore(other_).override_verdict(uuid, false, "The camera was knocked", {"0192-i", "Ida Adler"});
   expect_fresh("a decision");
   CurriculumStore(other_).join("T-new", "autumn", {"", "Ida Adler"});
   expect_fresh("a group");

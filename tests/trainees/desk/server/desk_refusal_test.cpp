@@ -20,7 +20,7 @@ class DeskRefusal : public DeskTest {
   }
   /// The refused form's page; `said` is the reason that stands in it.
   std::string refused(const std::string& path, const std::string& form, const std::string& said, int status = 400) {
-    const Answer answer = ask("POST", path, ines_, form);
+    const Answer answer = ask("POST", path, ines_, form + "&password=" + percent_encoded(kPassword));
     EXPECT_EQ(answer.response.status, status) << path;
     EXPECT_NE(answer.response.body.find(said), std::string::npos) << path << "\n"
                                                                   << answer.response.body.substr(0, 3000);
@@ -66,7 +66,8 @@ TEST_F(DeskRefusal, ADecisionASignatureAndAWithdrawalStayInTheirs) {
   const std::string signature =
       refused("/attempt/" + annas_ + "/sign", "meaning=admiration&note=well+done", "Signature: its meaning is review");
   EXPECT_NE(signature.find("value=\"well done\""), std::string::npos);
-  const Certificate held = AssessmentStore(database_).certify("T-anna", "surface-touch", "L1", "1", "{}", {"", "x"});
+  const Certificate held =
+      AssessmentStore(database_).certify("T-anna", "surface-touch", "L1", "1", "{}", {"0192-x", "x"});
   const std::string withdrawal = refused("/certificate/" + held.uuid + "/revoke", "reason=why", "Reason: say why");
   EXPECT_NE(withdrawal.find("<details open=\"open\"><summary>Withdraw"), std::string::npos);
   EXPECT_NE(withdrawal.find("value=\"why\""), std::string::npos);

@@ -308,10 +308,11 @@ TEST_F(DeskRoutes, WhoMaySeeWhat) {
                  route.path.find("{certificate}") != std::string::npos);
     const bool of_record = std::any_of(record.begin(), record.end(),
                                        [&](const std::string& part) { return route.path.starts_with(part); });
-    EXPECT_EQ(route.audience, open        ? Audience::kEverybody
-                              : own       ? Audience::kOwnData
-                              : of_record ? Audience::kAdministrators
-                                          : Audience::kInstructors)
+    EXPECT_EQ(route.audience, open                        ? Audience::kEverybody
+                              : route.path == "/password" ? Audience::kSignedIn
+                              : own                       ? Audience::kOwnData
+                              : of_record                 ? Audience::kAdministrators
+                                                          : Audience::kInstructors)
         << route.method << " " << route.path;
   }
 }

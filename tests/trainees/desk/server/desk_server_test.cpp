@@ -137,6 +137,23 @@ TEST_F(DeskServerTest, DribblersTakeTheirOwnPlacesOnly) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(get("/everybody"), 200);
 }
 
+/// Half-open connections, from as many addresses as it takes, and from the reader's own.
+TEST_F(DeskServerTest, PagesComeAtOnceWhileManyConnectionsAreSlow) {
+  serve(options());
+  std::vector<std::unique_ptr<SlowVisitor>> visitors;
+  for (int i = 0; i < 144; ++i) {
+    const std::string from = "127.0.0." + std::to_string(1 + i % 9);
+    visitors.push_back(std::make_unique<SlowVisitor>(port(), from.c_str()));
+    if (i % 2 == 0) visitors.back()->send("GET / HTTP/1.1\r\na: ");
+    if (i % 3 == 0) visitors.back()->send("x\r\nHost: a\r\nContent-Length: 500000\r\n\r\n");
+  }
+  for (int i = 0; i < 10; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(get("/everybody"), 200);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(300));
+  }
+}
+
 TEST_F(DeskServerTest, StopsWhileSomebodyDribbles) {
   serve(options());
   SlowVisitor visitor(port());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/trainees/desk/server/desk_samples.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::desk_sign_in_test {
@@ -213,6 +214,41 @@ TEST_F(DeskSignIn, WhatCannotBeRecordedDoesNotHappen) {
   EXPECT_EQ(staff_page({cookie_of(answer), ""}), 401);
   sql::execute(database_.connection(), "PRAGMA query_only = OFF");
   EXPECT_EQ(try_sign_in("ines", kPassword, visitor).response.status, 303);
+}
+
+/// No page more, and what room the pages have is used up.
+void fill_disk(Database& database) {
+  sqlite3* connection = database.connection();
+  const std::string most = std::to_string(sql::query_integer(connection, "PRAGMA page_count"));
+  sql::query_integer(connection, "PRAGMA max_page_count = " + most);
+  const auto write = [&] {
+    for (;;) AccountStore(database).signed_out("");
+  };
+  EXPECT_NE(message_of<DiskFull>(write).find("full"), std::string::npos);
+}
+
+TEST_F(DeskSignIn, AFullDiskLetsPeopleInToReadAndIsCalledThat) {
+  add_accounts();
+  make_gate({}, desk_routes());
+  fill_disk(database_);
+  const Answer in = try_sign_in("ines", kPassword, stranger());
+  EXPECT_EQ(in.response.status, 303);
+  const std::string cookie = cookie_of(in), page = ask("GET", "/attempt/" + annas_, {cookie, ""}).response.body;
+  EXPECT_NE(page.find("Sign-off"), std::string::npos);
+  const Visitor ines{cookie, field_of(page, "token")};
+  const std::string note = "text=" + std::string(200, 'n') + "+with+an+end";
+  const Answer refused = ask("POST", "/attempt/" + annas_ + "/note", ines, note);
+  EXPECT_EQ(refused.response.status, 507);
+  EXPECT_NE(refused.response.body.find("disk of this machine is full"), std::string::npos);
+  EXPECT_NE(refused.response.body.find("nnn with an end</textarea>"), std::string::npos)
+      << "what was typed stands in the form";
+  EXPECT_EQ(ask("POST", "/curriculum/group", ines, "code=T-anna&group=autumn").response.status, 507);
+  EXPECT_EQ(ask("GET", "/", ines).response.status, 200) << "and it is read on";
+  sql::query_integer(database_.connection(), "PRAGMA max_page_count = 1000000");
+  EXPECT_EQ(ask("POST", "/attempt/" + annas_ + "/note", ines, note).response.status, 303);
+  EXPECT_EQ(sql::query_integer(database_.connection(), "SELECT count(*) FROM audit WHERE action = 'signed in'"), 1)
+      << "whoever came while it was full is put on record before anything is written";
+  EXPECT_EQ(problems_of(database_), "");
 }
 
 }  // namespace

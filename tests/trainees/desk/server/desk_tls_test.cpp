@@ -76,6 +76,12 @@ TEST_F(DeskTls, SaysWhatIsWrongWithItsFiles) {
   const fs::path other = folder_ / "other.pem", other_key = folder_ / "other_key.pem";
   make_identity(other, other_key);
   EXPECT_NE(message(certificate_, other_key).find("other_key.pem"), std::string::npos);
+  for (const int rights : {0640, 0604, 0620}) {
+    fs::permissions(key_, fs::perms(rights));
+    EXPECT_NE(message(certificate_, key_).find("other users may open this private key"), std::string::npos) << rights;
+  }
+  fs::permissions(key_, fs::perms(0400));
+  EXPECT_EQ(message(certificate_, key_), "");
   std::ofstream(folder_ / "empty.pem");
   EXPECT_NE(message(folder_ / "empty.pem", key_), "");
 }

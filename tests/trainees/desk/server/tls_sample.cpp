@@ -28,6 +28,7 @@ void make_identity(const std::filesystem::path& certificate, const std::filesyst
   file = std::fopen(key.c_str(), "w");
   PEM_write_PrivateKey(file, pair, nullptr, nullptr, 0, nullptr, nullptr);
   std::fclose(file);
+  std::filesystem::permissions(key, std::filesystem::perms(0600));
   X509_EXTENSION_free(names);
   X509_free(made);
   EVP_PKEY_free(pair);

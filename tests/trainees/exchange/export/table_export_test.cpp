@@ -20,7 +20,7 @@ using test::cell_of;
 using test::CsvTable;
 using test::read_csv;
 
-const Author kTeacher{"", "Dr =Teach, \"MD\""};
+const Author kTeacher{"0192-t", "Dr =Teach, \"MD\""};
 const std::vector<std::string> kFiles{"attempts.csv",  "caps.csv",    "events.csv",     "metrics.csv",  "notes.csv",
                                       "overrides.csv", "ratings.csv", "signatures.csv", "subscores.csv"};
 
@@ -196,7 +196,8 @@ TEST_F(TableExport, TextOfPeopleIsDefused) {
 TEST_F(TableExport, ADecisionCountsAndTheScoresOwnVerdictStandsBesideIt) {
   const CsvTable before = table(csv(), "attempts");
   EXPECT_EQ(cell_of(before, first_.uuid, "decided_by"), "");
-  AssessmentStore(database_).override_verdict(first_.uuid, false, "The assistant did half of it", {"", "Dr Late"});
+  AssessmentStore(database_).override_verdict(first_.uuid, false, "The assistant did half of it",
+                                              {"0192-l", "Dr Late"});
   const CsvTable attempts = table(csv(), "attempts");
   EXPECT_EQ(cell_of(attempts, first_.uuid, "passed"), "0");
   EXPECT_EQ(cell_of(attempts, first_.uuid, "passed_by_score"), "1");

@@ -59,13 +59,14 @@ TEST(XapiExport, TheNewestSignersAccountIsTheInstructor) {
   Database database(":memory:");
   const AttemptId id = store_attempt(database, sample_start("A"), sample_result());
   EXPECT_FALSE(written(database, {}, {})[0]["context"].contains("instructor"));
+  AssessmentStore assessments(database);
+  assessments.sign(id.uuid, "review", "", {"", "before anybody had an account"});
+  EXPECT_FALSE(written(database, {}, {})[0]["context"].contains("instructor"));
   AccountStore accounts(database);
   const Account one = accounts.add("one", "Dr One", Role::kInstructor, "", "long enough to sign in", "");
   const Account two = accounts.add("two", "Dr Two", Role::kInstructor, "", "long enough to sign in", "");
-  AssessmentStore assessments(database);
   assessments.sign(id.uuid, "review", "", {one.uuid, one.name});
   assessments.sign(id.uuid, "approval", "", {two.uuid, two.name});
-  assessments.sign(id.uuid, "review", "", {"", "from the command line"});
   const json statement = written(database, {}, {}, {"https://hospital.example/"})[0];
   EXPECT_EQ(statement["context"]["instructor"]["account"],
             (json{{"homePage", "https://hospital.example/"}, {"name", two.uuid}}));

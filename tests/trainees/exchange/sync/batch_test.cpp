@@ -50,7 +50,7 @@ TEST_F(BatchOf, IsAStretchOfTheTrail) {
 }
 
 TEST_F(BatchOf, OwnWordsOfTraineesAreIdentities) {
-  const Account own = AccountStore(database_).add("anna", "Anna", Role::kTrainee, "T-a", "123456", "");
+  const Account own = AccountStore(database_).add("anna", "Anna", Role::kTrainee, "T-a", "580274", "");
   const std::string attempt = AttemptStore(database_).list().front().uuid;
   AssessmentStore assessments(database_);
   assessments.sign(attempt, "authorship", "", {own.uuid, own.name});

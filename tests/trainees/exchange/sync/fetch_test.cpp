@@ -107,7 +107,7 @@ TEST_F(Erased, IdentityLeavesTheCentreWithThePush) {
 
 TEST_F(Erased, WhatTheySignedThemselvesGoesEverywhere) {
   Database first = station("first");
-  const Account own = AccountStore(first).add("gone", "Anna Gone", Role::kTrainee, "T-gone", "123456", "");
+  const Account own = AccountStore(first).add("gone", "Anna Gone", Role::kTrainee, "T-gone", "580274", "");
   const std::string attempt = AttemptStore(first).list({"T-gone", ""}).front().uuid;
   const std::string signature = AssessmentStore(first).sign(attempt, "authorship", "", {own.uuid, own.name}).uuid;
   PushOptions named{central_};

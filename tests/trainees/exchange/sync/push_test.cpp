@@ -85,7 +85,7 @@ TEST_F(Stations, NobodyIsNamedUnlessAsked) {
   sql::execute(database.connection(), "UPDATE person SET name = 'Anna Zimtstern', email = 'anna@zimtstern'");
   ConsentStore(database).record("T-Zimtstern", "research", true, "I, Anna Zimtstern, agree.", kTeacher);
   const Account own =
-      AccountStore(database).add("zimtstern", "Anna Zimtstern", Role::kTrainee, "T-Zimtstern", "123456", "");
+      AccountStore(database).add("zimtstern", "Anna Zimtstern", Role::kTrainee, "T-Zimtstern", "580274", "");
   const std::string attempt = AttemptStore(database).list().front().uuid;
   AssessmentStore(database).sign(attempt, "authorship", "", {own.uuid, own.name});
   AssessmentStore(database).add_rating(attempt, "self", "overall", 3, {own.uuid, own.name});

@@ -1,0 +1,86 @@
+// A backup is a whole record: it passes the check by itself, wherever it is carried to.
+#include "trainees/records/record_backup.h"
+
+#include <fstream>
+
+#include "haptics/digest/digest.h"
+#include "tests/trainees/records/store_samples.h"
+
+namespace trocar::record_backup_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordBackup : public TemporaryFolder {
+ protected:
+  /// @param where empty: beside the database.
+  AttemptId recorded(const std::string& motion, const fs::path& where = {}) {
+    AttemptStart start = sample_start();
+    if (!where.empty()) start.recording = where;
+    AttemptStore store(database_);
+    const AttemptId id = store.begin_attempt(start);
+    fs::create_directories(id.recording.parent_path());
+    std::ofstream(id.recording) << motion;
+    AttemptResult result = sample_result();
+    result.recording_sha256 = digest::of_file(id.recording);
+    store.finish_attempt(id, result);
+    return id;
+  }
+  static std::string problems(const fs::path& database) {
+    Database opened(database, OpenMode::kExisting);
+    std::string all = problems_of(opened);
+    for (const std::string& problem : AttemptStore(opened).check_recordings()) all += problem + "\n";
+    return all;
+  }
+  Database database_{folder_ / "t.db"};
+};
+
+TEST_F(RecordBackup, TakesTheRecordingsAlongAndIsSoundWithoutTheOriginal) {
+  recorded("motion");
+  recorded("of a chosen name", folder_ / "chosen" / "a.trec");
+  EXPECT_EQ(recordings_size(database_), 22U);
+  const fs::path to = folder_ / "disk" / "copy.backup";
+  const BackupReport made = back_up(database_, to, BackedUp::kWithRecordings);
+  EXPECT_EQ(made.recordings, folder_ / "disk" / "copy.recordings");
+  EXPECT_EQ(made.files, 2U);
+  EXPECT_EQ(made.bytes, 22U);
+  EXPECT_TRUE(made.missing.empty());
+  for (const auto& entry : fs::directory_iterator(made.recordings))
+    EXPECT_EQ(entry.status().permissions(), fs::perms(0600));
+  EXPECT_EQ(fs::status(made.recordings).permissions(), fs::perms(0700));
+  fs::remove_all(folder_ / "t.recordings");
+  fs::remove_all(folder_ / "chosen");
+  EXPECT_EQ(problems(to), "");
+}
+
+TEST_F(RecordBackup, LeavesThemOutWhenAsked) {
+  const AttemptId id = recorded("motion");
+  const fs::path to = folder_ / "disk" / "copy.backup";
+  EXPECT_TRUE(back_up(database_, to, BackedUp::kWithoutRecordings).recordings.empty());
+  EXPECT_FALSE(fs::exists(folder_ / "disk" / "copy.recordings"));
+  EXPECT_NE(problems(to).find(id.uuid + ".trec of attempt " + id.uuid + " is missing"), std::string::npos);
+}
+
+TEST_F(RecordBackup, OverwritesNothingAndLeavesNoPartBehind) {
+  recorded("motion");
+  const fs::path to = folder_ / "copy.backup";
+  fs::create_directories(folder_ / "copy.recordings");
+  const auto begin = [&] { back_up(database_, to, BackedUp::kWithRecordings); };
+  EXPECT_NE(message_of<InputError>(begin).find("copy.recordings: exists already"), std::string::npos);
+  EXPECT_FALSE(fs::exists(to));
+  fs::remove(folder_ / "copy.recordings");
+  begin();
+  EXPECT_NE(message_of<InputError>(begin).find("exists already"), std::string::npos);
+  EXPECT_EQ(problems(to), "") << "the first one stands";
+}
+
+TEST_F(RecordBackup, TellsARecordingThatIsGone) {
+  const AttemptId id = recorded("motion");
+  fs::remove(id.recording);
+  const BackupReport made = back_up(database_, folder_ / "copy.backup", BackedUp::kWithRecordings);
+  EXPECT_EQ(made.missing, std::vector<fs::path>{id.recording});
+  EXPECT_EQ(made.files, 0U);
+}
+
+}  // namespace
+}  // namespace trocar::record_backup_test

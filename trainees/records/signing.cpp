@@ -1,0 +1,39 @@
+#include "trainees/records/signing.h"
+
+#include "haptics/input_error.h"
+#include "trainees/records/demo_record.h"
+#include "trainees/store/sqlite_handle.h"
+
+namespace trocar {
+namespace {
+
+/// Its newest password, or its first one, was set by another account.
+bool given_by_another(sqlite3* connection, const std::string& account) {
+  sql::Statement row(connection,
+                     "SELECT actor FROM audit WHERE subject = ? AND action IN ('account added', 'account password')"
+                     " ORDER BY position DESC LIMIT 1");
+  return row.bind(account).step() && row.text(0) != "trocar" && row.text(0) != account;
+}
+
+}  // namespace
+
+std::string why_no_signature(const Database& database, const std::string& account_uuid) {
+  if (is_demo(database)) return "";
+  sqlite3* connection = database.connection();
+  if (!account_uuid.empty())
+    return given_by_another(connection, account_uuid)
+               ? "your password was given to you by somebody else, who knows it too: set your own first"
+               : "";
+  if (sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '')") != 0)
+    return "accounts are kept here, so only an account can sign: sign in first";
+  if (sql::query_integer(connection, "SELECT count(*) FROM person") > 1)
+    return "several people are kept here, so a signature must be somebody's: make an account first";
+  return "";
+}
+
+void require_signature(const Database& database, const std::string& account_uuid) {
+  if (const std::string why = why_no_signature(database, account_uuid); !why.empty())
+    throw InputError("no signature: " + why);
+}
+
+}  // namespace trocar
