@@ -53,10 +53,9 @@ std::string backup_section(const RecordView& view, const Frame& frame) {
   return section(
       "backups", "Backups",
       listed + why_refused(frame, "backup") + form_begin("/record/backup", frame) +
-          "<p><label><input type=\"checkbox\" name=\"leave\" value=\"recordings\"/> Leave "
-          "out the recordings (" +
-          size_text(view.recordings_bytes) +
-          ")</label></p><p><button>Make a backup</button></p></form><p class=\"dim\">A whole copy of database "
+          select_field("backup-leave", "leave", "Recordings",
+                       {{"", "taken along, " + size_text(view.recordings_bytes)}, {"recordings", "left out"}}, "") +
+          "<p><button>Make a backup</button></p></form><p class=\"dim\">A whole copy of database "
           "and recordings in the same folder; with many recordings it takes minutes. Without them a copy "
           "elsewhere has scores and no motion, and its check says so. Take it to another disk: one beside "
           "the record is lost with it.</p>");
