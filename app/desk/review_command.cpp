@@ -19,9 +19,11 @@
 #include "app/cli/text_table.h"
 #include "app/desk/demo_cohort.h"
 #include "app/desk/desk_facts.h"
+#include "app/desk/desk_recording_check.h"
 #include "app/desk/desk_sources.h"
 #include "app/desk/password_prompt.h"
 #include "app/session/interrupt.h"
+#include "app/session/keeping/recording_check.h"
 #include "haptics/input_error.h"
 #include "trainees/desk/server/desk_server.h"
 #include "trainees/exchange/sync/replica_keeper.h"
@@ -194,6 +196,10 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   if (pictures) add_pictures(served.sources, *pictures);
   const auto films = desk_films(file, served.sources.no_film);
   if (films) add_films(served.sources, *films);
+  DeskRecordingCheck recordings(desk_opener(file));
+  served.sources.recordings_checked = [&] { return recordings.state(); };
+  served.sources.check_recordings = [&] { recordings.begin(); };
+  served.sources.recorded_outcome = recorded_outcome;
   served.routes = review::desk_routes();
   {
     Database opened = served.open();
@@ -208,6 +214,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   review::DeskServer desk(std::move(served));
   desk.start();
   if (keeper) keeper->start();
+  recordings.begin();
   tell(desk, options, out, err);
   // The page that says that the demo is gone still fetches its style.
   for (int left = kLast_turns; left > 0 && !interrupt.seen(); left -= gone ? 1 : 0) std::this_thread::sleep_for(kTurn);

@@ -45,6 +45,24 @@ std::optional<Recording> kept_recording(const AttemptResult& stored) {
 
 }  // namespace
 
+std::string recorded_outcome(Database& database, const AttemptResult& attempt) {
+  try {
+    const auto recording = kept_recording(attempt);
+    if (!recording)
+      return "The recording that it was kept with is not in its place: nothing is known of how it went on.";
+    const std::string another =
+        AttemptStore(database).recording_problem(attempt.uuid, recording->attempt, recording->signed_by);
+    if (!another.empty())
+      return "What lies in the place of its recording " + another + ": it says nothing of this attempt.";
+    if (!recording->end) return "Its recording is its own and stops before the attempt did: there is no score.";
+    return "Its recording is its own and whole; graded from it: " +
+           outcome_words(recorded_result(*recording, attempt.recording_path).grade) +
+           ". It counts as aborted until somebody decides on it.";
+  } catch (const InputError& error) {
+    return std::string("Its recording cannot be read: ") + error.what();
+  }
+}
+
 std::vector<std::string> check_by_recordings(Database& database, const RecordingCheck& options) {
   const AttemptStore store(database);
   const std::vector<AttemptSummary> attempts = store.list();

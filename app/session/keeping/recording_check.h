@@ -13,6 +13,9 @@
 
 namespace trocar {
 
+/// What the recording of an attempt that was cut off is and gives, a sentence for who decides on the attempt.
+std::string recorded_outcome(Database& database, const AttemptResult& attempt);
+
 struct RecordingCheck {
   int jobs = 0;  ///< threads; 0: one a core
   std::function<bool(std::size_t done, std::size_t all)> going =

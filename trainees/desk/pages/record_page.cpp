@@ -16,29 +16,49 @@ std::string parts(const char* here) {
   return out + "</nav>";
 }
 
+std::string problem_list(const std::vector<std::string>& problems) {
+  std::string out = "<div class=\"error\" role=\"alert\"><p>" + shape("fail") + "<strong>" +
+                    plural(static_cast<std::int64_t>(problems.size()), "problem", "problems") +
+                    "</strong>. Change nothing, keep the backups, and find out what happened.</p><ul>";
+  constexpr std::size_t kShown = 100;
+  for (std::size_t k = 0; k < problems.size() && k < kShown; ++k)
+    out += "<li>" + escape_html(sentence(problems[k])) + "</li>";
+  if (problems.size() > kShown)
+    out += "<li>and " + std::to_string(problems.size() - kShown) + " more: trocar db check tells all</li>";
+  return out + "</ul></div>";
+}
+
+/// What the background found; it goes on while pages are looked at.
+std::string recordings_checked(const RecordingsChecked& checked) {
+  std::string out;
+  if (!checked.finished_utc.empty())
+    out = checked.problems.empty()
+              ? "<p class=\"notice\">" + shape("pass") +
+                    "Each recording is its attempt's and gives the stored score (" +
+                    escape_html(checked.finished_utc.substr(0, 10) + ", " + checked.finished_utc.substr(11, 5)) +
+                    " UTC).</p>"
+              : problem_list(checked.problems);
+  if (checked.running)
+    out += "<p class=\"dim\">Grading every attempt again from its recording: " + std::to_string(checked.done) + " of " +
+           std::to_string(checked.all) + ".</p>";
+  return out;
+}
+
 std::string check_section(const RecordView& view, const Frame& frame) {
   std::string out;
   if (view.problems && view.problems->empty())
     out = "<p class=\"notice\" role=\"status\">" + shape("pass") +
           "Sound: file, schema, references, hash chain, audit trail, signatures, anchor and recordings.</p>";
-  if (view.problems && !view.problems->empty()) {
-    out = "<div class=\"error\" role=\"alert\"><p>" + shape("fail") + "<strong>" +
-          plural(static_cast<std::int64_t>(view.problems->size()), "problem", "problems") +
-          "</strong>. Change nothing, keep the backups, and find out what happened.</p><ul>";
-    constexpr std::size_t kShown = 100;
-    const std::size_t all = view.problems->size();
-    for (std::size_t k = 0; k < all && k < kShown; ++k)
-      out += "<li>" + escape_html(sentence((*view.problems)[k])) + "</li>";
-    if (all > kShown) out += "<li>and " + std::to_string(all - kShown) + " more: trocar db check tells all</li>";
-    out += "</ul></div>";
-  }
+  if (view.problems && !view.problems->empty()) out = problem_list(*view.problems);
+  if (view.recordings) out += recordings_checked(*view.recordings);
   for (const std::string& remark : view.remarks)
     out += "<p class=\"dim\">" + shape("integrity") + "Remark: " + escape_html(remark) + "</p>";
   return section("check", "Check",
                  out +
                      "<p>Reads every row and every recording again and compares them with the hash chain, the audit "
-                     "trail and the anchor. "
-                     "With many recordings it takes minutes.</p>" +
+                     "trail, its signatures and the anchor. With many recordings it takes minutes. Grading every "
+                     "attempt again from its recording goes on behind this page, and begins whenever the desk "
+                     "does.</p>" +
                      form_begin("/record/check#check", frame) + "<p><button>Check the record</button></p></form>");
 }
 

@@ -39,6 +39,8 @@ void add_trace(AttemptView& view, Desk& desk) {
   } else {
     try {
       view.trace = desk.sources.trace(view.result.recording_path);
+      if (view.result.cut_off && desk.sources.recorded_outcome)
+        view.recorded = desk.sources.recorded_outcome(desk.database, view.result);
     } catch (const std::exception& error) {
       const bool there = std::filesystem::is_regular_file(view.result.recording_path, none);
       view.no_trace =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trainees/desk/pages/page_frame.h"
+#include "trainees/desk/queries/recordings_checked.h"
 #include "trainees/records/accounts.h"
 
 namespace trocar::review {
@@ -33,6 +34,7 @@ struct RecordView {
   std::vector<BackupFile> backups = {};                   ///< beside the database, newest first
   std::optional<std::vector<std::string>> problems = {};  ///< of a check just made; empty: sound
   std::vector<std::string> remarks = {};                  ///< of that check, no problems
+  std::optional<RecordingsChecked> recordings = {};       ///< graded again in the background
 };
 
 struct AuditQuestion {

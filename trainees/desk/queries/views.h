@@ -170,6 +170,7 @@ struct AttemptView {
   std::map<std::string, bool> less_is_better = {};  ///< of the metrics that the rubric judges
   std::optional<Trace> trace = {};
   std::string no_trace = {};   ///< why there is none
+  std::string recorded = {};   ///< of an attempt that was cut off: what its recording gives, for who decides on it
   bool picture = false;        ///< the program can make one
   bool heat = false;           ///< and maps on the scene
   bool heat_of_force = false;  ///< which one is looked at

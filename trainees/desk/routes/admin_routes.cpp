@@ -69,12 +69,19 @@ Response set_disabled(const Request& request, Desk& desk, bool disabled) {
   });
 }
 
+RecordView record_of(Desk& desk) {
+  RecordView view = record_view(desk.database, desk.sources.program);
+  if (desk.sources.recordings_checked) view.recordings = desk.sources.recordings_checked();
+  return view;
+}
+
 Response record(const Request& request, Desk& desk) {
-  return html(record_page(record_view(desk.database, desk.sources.program), frame_of(request, desk)));
+  return html(record_page(record_of(desk), frame_of(request, desk)));
 }
 
 Response check(const Request& request, Desk& desk) {
-  RecordView view = record_view(desk.database, desk.sources.program);
+  if (desk.sources.check_recordings) desk.sources.check_recordings();
+  RecordView view = record_of(desk);
   view.problems = desk.database.check();
   for (std::string& problem : AttemptStore(desk.database).check_recordings())
     view.problems->push_back(std::move(problem));
@@ -93,7 +100,7 @@ Response backup(const Request& request, Desk& desk) {
   } catch (const InputError& error) {
     Frame frame = frame_of(request, desk);
     frame.refused = {"backup", error.what(), {}};
-    return html(record_page(record_view(desk.database, desk.sources.program), frame), 400);
+    return html(record_page(record_of(desk), frame), 400);
   }
   return see("/record#backups");
 }

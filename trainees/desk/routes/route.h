@@ -16,6 +16,7 @@
 #include "scenarios/scoring/attempt_result.h"
 #include "scenarios/scoring/trace.h"
 #include "trainees/desk/queries/film_state.h"
+#include "trainees/desk/queries/recordings_checked.h"
 #include "trainees/exchange/sync/replica_status.h"
 #include "trainees/live/live_stations.h"
 #include "trainees/markup/board_plots.h"
@@ -102,6 +103,11 @@ struct DeskSources {
   std::function<ReplicaStatus()> central = {};
   /// Programs that share this database and run now.
   std::function<LiveStations()> stations = {};
+  /// How far recordings have been graded again in the background; and begins it once more, unless it is at work.
+  std::function<RecordingsChecked()> recordings_checked = {};
+  std::function<void()> check_recordings = {};
+  /// What the recording of an attempt that was cut off is and gives, a sentence for who decides on it.
+  std::function<std::string(Database& database, const AttemptResult& attempt)> recorded_outcome = {};
   /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no
   /// such cohort.
   std::function<std::string()> remove_demo = {};
