@@ -202,7 +202,7 @@ TEST(SutureNeedle, LetGoItStaysWhereItIsAndCanBeTakenAgain) {
 }
 
 TEST(SutureNeedle, ClosingPadsKeepWhatLiesAtTheirEdge) {
-  NeedleRig rig;
+  test::NeedleRig rig;
   rig.step(std::nullopt);
   rig.needle.place(rig.turned(0));
   rig.needle.stand();
