@@ -199,6 +199,7 @@ TEST(NeedleTask, ABiteThatIsUndoneCountsAndItsErrorStays) {
   bench.withdraw();
   EXPECT_EQ(bench.count(event_type::kBiteUndone, Severity::kMinor), 1);
   bench.go_in(0);
+  bench.step(0.5);
   EXPECT_NEAR(bench.metric("entry_error_m"), 0.001, 1e-12) << "mean of both: going in again washes nothing off";
   EXPECT_EQ(bench.metric("needle_redos"), 1);
 }
