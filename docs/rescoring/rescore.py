@@ -256,6 +256,15 @@ def force_max(attempt):
     return max(s["force"] for s in attempt.samples) if touched else None
 
 
+def soft_impulse(attempt):
+    """In contact; a sample stands for half of the way to its neighbours."""
+    t, total, soft = attempt.times, 0.0, attempt.context["soft_force_n"]
+    for i, sample in enumerate(attempt.samples):
+        weight = (t[min(i + 1, len(t) - 1)] - t[max(i - 1, 0)]) / 2
+        total += weight * max(0.0, sample["force"] - soft) if sample["contact"] else 0
+    return total if any(s["contact"] for s in attempt.samples) else None
+
+
 def grip_mean(attempt):
     """Over the time with a grip above 0.05 N; a sample stands for half of the way to its neighbours."""
     t, total, held = attempt.times, 0.0, 0.0
@@ -366,6 +375,8 @@ def needle_redos(attempt):
         return None
     again = sum(e["type"] == "NEEDLE_GRIPPED" and e["severity"] != "info" for e in attempt.events)
     return again + attempt.count("BITE_UNDONE", "NEEDLE_LOST")
+
+
 def gauze_metric(value):
     """None until something was cut."""
     def of(attempt):
@@ -400,6 +411,7 @@ METRICS = {
     "wall_contacts": lambda a: a.count("WALL_CONTACT") if a.count("HORIZON_KEPT") else None,
     "view_jerks": lambda a: last_told(a, "VIEW_JERKS"),
     "force_max_n": force_max,
+    "soft_impulse_ns": soft_impulse,
     "grip_mean_n": grip_mean,
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,

@@ -84,6 +84,8 @@ constexpr MetricDefinition kCatalogue[] = {
      "4/3 pi s1 s2 s3 of the force cloud", kLess},
     {"soft_force_share", "1", "share of contact time above the soft force limit",
      "time with |F| > soft limit / contact time", kLess, kForce},
+    {"soft_impulse_ns", "N s", "integral of the contact force beyond the soft force limit",
+     "sum max(0, |F| - soft limit) dt over the time in contact", kLess, kForce},
     {"force_rate_max_n_per_s", "N/s", "steepest change of the contact force, filtered at 20 Hz",
      "max |dF/dt| after 20 Hz", kLess},
     {"in_band_share", "1", "share of the pressing time in which the force is in the wanted band",

@@ -94,7 +94,9 @@ void SutureNeedle::use_jaws(const std::optional<DriverJaws>& jaws) {
   };
   if (!jaws) return let_go(GripState::kEmpty);
   if (was_held) X_TN_ = jaws->X_TI * X_IN_;  // it goes along, however quick they are
-  const std::vector<double> arcs = arcs_between(jaws->X_TI, jaws->opening_m);
+  // Pads that close on the wire leave no way out beside it: what is held stays between them as long as it is as thick.
+  const double room = was_held ? std::max(jaws->opening_m, 2 * shape_.wire_radius_m) : jaws->opening_m;
+  const std::vector<double> arcs = arcs_between(jaws->X_TI, room);
   if (!was_held) {
     const bool enters = state_ == GripState::kAround || jaws->opening_m > 2 * shape_.wire_radius_m;
     if (arcs.empty() || !enters) return let_go(GripState::kEmpty);

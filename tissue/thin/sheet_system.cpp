@@ -135,7 +135,7 @@ bool SheetSystem::jaws_taken(const StylusState& stylus, const Tool& tool, bool p
   if (!grasps && tool.kind != InstrumentKind::kScissors) return false;
   if (!grasps && open_) return true;
   return std::any_of(sheets_.begin(), sheets_.end(), [&](const Sheet& of) {
-    if (of.setup.framed && !grasps) return of.bite_steps <= kBiteSteps;
+    if (of.setup.framed && !grasps) return of.snipped;
     return of.grip.state() != GripState::kEmpty ||
            !triangles_between(of.sheet, stylus.X_TI, grasps ? options_.grip.pad_length_m : options_.scissors.blade_m,
                               grasps ? options_.grip.pad_width_m : options_.scissors.width_m, stylus.jaw_opening_m, 0)
@@ -344,15 +344,18 @@ void SheetSystem::feel_tips(std::size_t sheet, const SheetContacts& given) {
   if (given.first_triangle < 0) return;
   std::int32_t first = given.first_triangle;
   for (std::size_t s = 0; s < sheet; ++s) first += static_cast<std::int32_t>(sheets_[s].sheet.triangles().size());
-  Vec3 pull = Vec3::Zero();
+  Vec3 pull = Vec3::Zero(), sunk = Vec3::Zero();
   for (std::int32_t i = 0; i < given.contacts.count; ++i) {
     const SolvedContact& contact = given.contacts.at[static_cast<std::size_t>(i)];
     const std::int32_t triangle = contact.place.triangle - first;
     if (triangle < 0 || triangle >= static_cast<std::int32_t>(of.sheet.triangles().size()) || !carries(contact))
       continue;
     pull += contact.force_T;
-    of.pressed_n += std::max(0.0, contact.force_T.dot(contact.normal_T));
+    const double press = std::max(0.0, contact.force_T.dot(contact.normal_T));
+    of.pressed_n += press;
+    sunk += press * (of.sheet.place_T({triangle, contact.place.weight}) - contact.tool_T);
   }
+  if (of.pressed_n > 0) of.sunk_T = sunk / of.pressed_n;
   pull_n_ = std::max(pull_n_, pull.norm());
 }
 
@@ -360,6 +363,8 @@ void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool sc
   Sheet& of = sheets_[sheet];
   const ScissorsOptions& o = options_.scissors;
   of.bite_steps = of.pressed_n >= options_.bite_n ? 0 : of.bite_steps + 1;
+  // Blades that have cut it, and are not off it before they open, have closed on nothing else.
+  of.snipped = scissors && (of.bite_steps <= kBiteSteps || (of.snipped && stylus.jaw_opening_m < kOpenBlades));
   if (!scissors || of.bite_steps > kBiteSteps) {
     of.opened_m = 0;
     return;
@@ -372,7 +377,9 @@ void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool sc
   }
   const double opened = std::exchange(of.opened_m, 0.0);
   if (opened < kOpenBlades) return;
-  const auto cut = cut_between(sheet, stylus.X_TI, std::min(options_.snip_m, opened) / 2);
+  // Where they press and not where they have sunk in to: along a shaft that leans that is millimetres aside.
+  const Pose X_TI{stylus.X_TI.R, stylus.X_TI.p + of.sunk_T};
+  const auto cut = cut_between(sheet, X_TI, std::min(options_.snip_m, opened) / 2);
   if (cut) part_along(sheet, *cut);
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/attempts/demo_command.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -16,16 +17,23 @@
 #include "app/picture/films/video_writer.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "haptics/input_error.h"
+#include "scenarios/director/scoring_context.h"
 #include "tissue/tissue_frame.h"
 #include "trainees/files/write_file.h"
 
 namespace trocar {
 namespace {
 
+/// What the board asks for: some kinds need two places for one.
+int asked_for(const Scene& scene) {
+  const ScoringContext context =
+      scoring_context(scene.setup.exercise, scene.level, scene.board, {}, AttemptStatus::kAborted);
+  return std::min(static_cast<int>(scene.board.targets.size()), context.objects_total);
+}
+
 /// The moment that shows most of an exercise: half way, so that done, lit and waiting are all in view.
 bool telling_moment(const SessionView& view) {
-  const DirectorStatus& status = view.director.status();
-  if (2 * status.targets_done < static_cast<int>(view.scene.board.targets.size())) return false;
+  if (2 * view.director.status().targets_done < asked_for(view.scene)) return false;
   return picture_of(view.scene.setup.exercise).telling(view);
 }
 

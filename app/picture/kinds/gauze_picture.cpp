@@ -3,6 +3,7 @@
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
 #include "scenarios/kinds/gauze/cut_line.h"
+#include "scenarios/kinds/gauze/gauze_layout.h"
 
 namespace trocar {
 namespace {
@@ -17,18 +18,6 @@ constexpr double kGapShown = 0.34;  // of the free edge, that the frame leaves o
 constexpr double kTellingCut = 0.7;
 const Vec3 kInk(0.02, 0.03, 0.08), kFrame(0.10, 0.16, 0.22);
 
-/// Where a place of the line lies now: moved as the places beside it are.
-Vec3 inked_T(const SessionView& view, const Vec3& drawn_T, double arc_share) {
-  const auto& targets = view.scene.board.targets;
-  const auto count = static_cast<std::int32_t>(targets.size());
-  if (!view.tissue || view.tissue->place_count < count) return drawn_T;
-  const double step = std::clamp(arc_share * count - 0.5, 0.0, count - 1.0);
-  const auto before = static_cast<std::size_t>(step), behind = std::min(before + 1, targets.size() - 1);
-  const auto moved = [&](std::size_t n) -> Vec3 { return view.tissue->place[n].point_T - targets[n].centre_T; };
-  const double share = step - static_cast<double>(before);
-  return drawn_T + (1 - share) * moved(before) + share * moved(behind);
-}
-
 /// The line, stroke by stroke.
 void add_line(const SessionView& view, std::vector<SceneObject>& out) {
   const GauzeBoard& board = own_rules<GauzeBoard>(view.scene.board);
@@ -41,7 +30,8 @@ void add_line(const SessionView& view, std::vector<SceneObject>& out) {
     SceneObject ink;
     ink.shape = GauzeShape::kBox;
     ink.size_m = {kInkShare * all / strokes, own_rules<GauzeRules>(view.scene.setup.exercise).line_m, kInkThick};
-    ink.X_TO.p = inked_T(view, board.middle_T + Vec3(at.at.x(), at.at.y(), kInkOver), arc / all);
+    const Vec3 drawn_T = board.middle_T + Vec3(at.at.x(), at.at.y(), kInkOver);
+    ink.X_TO.p = on_gauze_now_T(view.scene.board.targets, view.director.status().done, view.tissue, drawn_T, arc / all);
     ink.X_TO.R.col(0) = Vec3(at.along.x(), at.along.y(), 0);
     ink.X_TO.R.col(1) = Vec3(-at.along.y(), at.along.x(), 0);
     ink.X_TO.R.col(2) = Vec3::UnitZ();

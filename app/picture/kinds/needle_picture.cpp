@@ -77,7 +77,8 @@ KindPicture needle_picture() {
           .work = needle_work,
           .telling =
               [](const SessionView& view) {
-                return view.tissue && view.tissue->needle.bite_count > 0 && view.tissue->needle.bite[0].through;
+                const bool good = !view.director.status().warning;
+                return good && view.tissue && view.tissue->needle.bite_count > 0 && view.tissue->needle.bite[0].through;
               },
           .add_marks = add_dots};
 }

@@ -104,6 +104,17 @@ void StateHash::add(const TissueFrame& frame) {
   add_bites(frame.needle);
   add_clips_and_drops(frame);
   add_duct_marks(frame);
+  add_sheet_cuts(frame);
+}
+
+/// Nothing while no sheet in a frame is cut: such runs keep their hash. The newest: those before it were told.
+void StateHash::add_sheet_cuts(const TissueFrame& frame) {
+  if (frame.sheet_cut_count == 0) return;
+  add(static_cast<std::uint64_t>(frame.sheet_cut_count));
+  const SheetCutSeen& newest =
+      frame.sheet_cut[static_cast<std::size_t>((frame.sheet_cut_count - 1) % kMaxSheetCutsSeen)];
+  add(newest.from_rest_T);
+  add(newest.to_rest_T);
 }
 
 /// Nothing while no duct is touched, clipped or cut: such runs keep their hash.

@@ -45,6 +45,7 @@ class StateHash {
  private:
   void add_marks(const TissueFrame& frame);
   void add_duct_marks(const TissueFrame& frame);
+  void add_sheet_cuts(const TissueFrame& frame);
   void add_surgery(const SurgeryState& surgery);
   void add_suture(const SutureState& suture);
   void add_bites(const NeedleSight& needle);

@@ -12,6 +12,7 @@ namespace trocar {
 namespace {
 
 constexpr std::size_t kMostSteps = 32;  // DirectorStatus::done
+constexpr double kWithin = 0.010;       // m that gauze is moved at most by who cuts it; what moves further has come off
 constexpr double kDrawnIn = 0.003;      // m: the free edge draws in so far as the gauze is spread; no line begins there
 constexpr double kMostRoll = 2 * std::numbers::pi / 3;  // rad either way, well within what a stylus rolls
 
@@ -21,6 +22,21 @@ Mat3 unrolled_at(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& 
 }
 
 }  // namespace
+
+Vec3 on_gauze_now_T(const std::vector<Target>& steps, const std::bitset<32>& done, const TissueFrame* frame,
+                    const Vec3& drawn_T, double share) {
+  const auto count = static_cast<std::int32_t>(steps.size());
+  if (!frame || frame->place_count < count) return drawn_T;
+  const double step = std::clamp(share * count - 0.5, 0.0, count - 1.0);
+  const auto before = static_cast<std::size_t>(step), behind = std::min(before + 1, steps.size() - 1);
+  const auto moved = [&](std::size_t n) -> Vec3 {
+    const Vec3 way = frame->place[n].point_T - steps[n].centre_T;
+    return way.norm() < kWithin ? way : Vec3(Vec3::Zero());
+  };
+  // What is cut already gapes, and says nothing of what lies ahead.
+  const double onward = done[before] ? 1 : step - static_cast<double>(before);
+  return drawn_T + (1 - onward) * moved(before) + onward * moved(behind);
+}
 
 Mat3 blades_along(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& place_T, const Vec3& along_T,
                   double& turned_rad) {

@@ -11,7 +11,6 @@ namespace {
 constexpr double kPullEnds = 0.8, kPullRearm = 0.1;  // of the limit; s
 constexpr double kCutAhead = 0.45;  // of a step, from what is cut to the middle of the next snip: they overlap a little
 constexpr double kFirstAhead = 0.5;     // the same from the edge, which gives way more: the rim parts with the cut
-constexpr double kWithin = 0.010;       // m that gauze is moved at most by who cuts it; what moves further has come off
 constexpr double kOnLine = 0.4;         // of a step: the last snip of the way in just meets the closed line
 constexpr double kGoodShare = 0.5;      // of the band about the line, that is aimed for
 constexpr double kAheadGoal = 1.0;      // of a step, from there to where the line goes
@@ -97,21 +96,10 @@ void GauzeTask::update(const TaskInput& input, EventLog& log) {
   ask_next(log);
 }
 
-/// Where a place of the line lies now: moved as the places beside it are.
-Vec3 GauzeTask::now_T(const TissueFrame* frame, double arc_m) const {
+Vec3 GauzeTask::line_T(const TissueFrame* frame, double arc_m) const {
   const LinePlace at = line_.at(arc_m);
-  const Vec3 drawn = board_.middle_T + Vec3(at.at.x(), at.at.y(), 0);
-  const auto count = static_cast<double>(targets_.size());
-  if (!frame || frame->place_count < static_cast<std::int32_t>(targets_.size())) return drawn;
-  const double step = std::clamp(arc_m / step_m() - 0.5, 0.0, count - 1);
-  const auto before = static_cast<std::size_t>(step), behind = std::min(before + 1, targets_.size() - 1);
-  const auto moved = [&](std::size_t n) -> Vec3 {
-    const Vec3 way = frame->place[n].point_T - targets_[n].centre_T;
-    return way.norm() < kWithin ? way : Vec3(Vec3::Zero());
-  };
-  // What is cut already gapes, and says nothing of what lies ahead.
-  const double share = done_[before] ? 1 : step - static_cast<double>(before);
-  return drawn + (1 - share) * moved(before) + share * moved(behind);
+  const double share = arc_m / (line_.way_in_m() + line_.round_m());
+  return on_gauze_now_T(targets_, done_, frame, board_.middle_T + Vec3(at.at.x(), at.at.y(), 0), share);
 }
 
 void GauzeTask::describe(const TaskInput& input, DirectorStatus& status) const {
@@ -125,11 +113,11 @@ void GauzeTask::describe(const TaskInput& input, DirectorStatus& status) const {
   status.exposure = line_.uncut_from_m() / all;
   Demand& demand = status.demand;
   demand = {};
-  demand.centre_T = now_T(input.tissue, next_arc_m_);
-  demand.goal_T = now_T(input.tissue, std::min(all, next_arc_m_ + kAheadGoal * rules_.step_m));
+  demand.centre_T = line_T(input.tissue, next_arc_m_);
+  demand.goal_T = line_T(input.tissue, std::min(all, next_arc_m_ + kAheadGoal * rules_.step_m));
   demand.radius_m = kGoodShare * own_rules<GauzeLevel>(level_).off_m;
   demand.R_TI = R_TI_;
-  demand.angle_tolerance_rad = std::atan2(2 * demand.radius_m, rules_.step_m);
+  demand.angle_tolerance_rad = std::atan2(demand.radius_m, rules_.step_m);
   demand.band = {rules_.press_low_n, rules_.press_high_n};
   status.cue = Cue::kSnip;
   const double pull = input.tissue ? input.tissue->sheet_pull_n : 0;

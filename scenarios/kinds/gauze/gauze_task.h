@@ -41,7 +41,7 @@ class GauzeTask final : public ExerciseTask {
   void follow_pull(const TaskInput& input, EventLog& log);
   void ask_next(EventLog& log);
   double step_m() const { return (line_.way_in_m() + line_.round_m()) / static_cast<double>(targets_.size()); }
-  Vec3 now_T(const TissueFrame* frame, double arc_m) const;
+  Vec3 line_T(const TissueFrame* frame, double arc_m) const;
 
   GauzeRules rules_;
   GauzeBoard board_;

@@ -23,6 +23,8 @@ constexpr double kQuickestSnipReach = 0.12;           // s
 constexpr double kSnipDeepest = 0.040;                // m on from the hover, felt or not: then it closes all the same
 constexpr double kSlowNear = 0.7;                     // of the approach speed, once something is felt
 constexpr double kFelt = 0.12;                        // N
+constexpr double kBladesRoll = 3;                     // rad/s of a turn, before speed_factor
+constexpr double kMostFollowed = 0.5, kMostLead = 0.4;  // rad at which the eyes lead; that fingers go ahead of a tool
 constexpr double kSnipTurn = 30 * std::numbers::pi / 180, kSnipTurnFloor = 0.15;  // of the aim error of turns
 
 }  // namespace
@@ -47,7 +49,19 @@ void SnipJob::set_blades(double to_m, double dt_s, HandIntent& intent) const {
   intent.jaw_opening_m += std::clamp(to_m - intent.jaw_opening_m, -most, most);
 }
 
+double SnipJob::missing_roll(const Percept& percept) const {
+  return wrist_.held(percept.target_R_TI).roll_rad - wrist_.held(percept.R_TI).roll_rad;
+}
+
+/// Along the shaft that is asked for: a port leads it, whatever the fingers do. What friction holds back is made up for
+/// by so much and no more, or it would build up.
+Wrist::Held SnipJob::rolled(const Percept& percept, double roll_rad) const {
+  const Wrist::Held wanted = wrist_.held(percept.target_R_TI);
+  return {wanted.shaft_T, std::clamp(roll_rad, wanted.roll_rad - kMostLead, wanted.roll_rad + kMostLead)};
+}
+
 void SnipJob::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  wrist_.begin(percept.R_TI);
   reach(percept, intent, random);
 }
 
@@ -55,12 +69,13 @@ void SnipJob::begin(const Percept& percept, const HandIntent& intent, HandRandom
 void SnipJob::reach(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   plan_ = aimed_reach(intent.X_TI.p, way_over(percept, skill_.hover_m), percept.target_radius_m, kQuickestSnipReach,
                       skill_, random);
-  const Mat3 R_missing = percept.target_R_TI * percept.R_TI.transpose();
-  const double angle = Eigen::AngleAxisd(R_missing).angle();
+  const double missing = missing_roll(percept), angle = std::abs(missing);
   const double noise = skill_.aim_angle_rad * std::sqrt(std::min(1.0, angle / kSnipTurn) + kSnipTurnFloor);
-  const Vec3 error = noise * Vec3(random.normal(), random.normal(), random.normal());
-  const double time = reach_time_s(angle, 2 * percept.target_angle_rad, skill_.speed_factor);
-  turn_ = TurnPlan(intent.X_TI.R, rotation_by(error) * R_missing * intent.X_TI.R, std::max(time, plan_.duration_s()));
+  const Wrist::Held now = wrist_.held(intent.X_TI.R);
+  const Wrist::Held then = rolled(percept, now.roll_rad + missing + noise * random.normal());
+  const double aimed = reach_time_s(angle, 2 * percept.target_angle_rad, skill_.speed_factor);
+  const double time = std::max({aimed, angle / kBladesRoll * skill_.speed_factor, plan_.duration_s()});
+  turn_ = WristPlan(wrist_, now, then, time);
   enter(Step::kReach);
 }
 
@@ -69,17 +84,18 @@ void SnipJob::follow(const Percept& percept, double dt_s, HandIntent& intent) co
   const Vec3 aside = aside_of(percept);
   const double off = aside.norm(), good = kGoodEnough * skill_.settle_share * percept.target_radius_m;
   if (off > good) intent.X_TI.p += aside * (kAsideGain / skill_.speed_factor * (1 - good / off) * dt_s);
-  const Eigen::AngleAxisd missing(Mat3(percept.target_R_TI * percept.R_TI.transpose()));
-  if (missing.angle() > kGoodEnough * skill_.settle_share * percept.target_angle_rad)
-    intent.X_TI.R =
-        rotation_by(kAsideGain / skill_.speed_factor * dt_s * missing.angle() * missing.axis()) * intent.X_TI.R;
+  const double missing = std::clamp(missing_roll(percept), -kMostFollowed, kMostFollowed);
+  if (std::abs(missing) < kGoodEnough * skill_.settle_share * percept.target_angle_rad) return;
+  const double roll = wrist_.held(intent.X_TI.R).roll_rad + kAsideGain / skill_.speed_factor * dt_s * missing;
+  intent.X_TI.R = wrist_.holding(rolled(percept, roll));
 }
 
 void SnipJob::look(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
   if (in_step_s_ > kSnipLate && skill_.max_corrections > 0) follow(percept, dt_s, intent);
   if (in_step_s_ < kSnipLate + kSnipLook * skill_.speed_factor || percept.jaw_opening_m < kBladesReady * kBladesOpen)
     return;
-  const bool off = aside_of(percept).norm() > skill_.settle_share * percept.target_radius_m;
+  const bool off = aside_of(percept).norm() > skill_.settle_share * percept.target_radius_m ||
+                   std::abs(missing_roll(percept)) > skill_.settle_share * percept.target_angle_rad;
   if (off && in_step_s_ < kLookFor * skill_.max_corrections * skill_.speed_factor) return;
   const double wanted = (percept.band_low_n + percept.band_high_n) / 2 * skill_.force_bias;
   goal_n_ = wanted * std::max(kLightest, 1 + skill_.force_cv * random.normal());
@@ -108,7 +124,7 @@ void SnipJob::update(const Percept& percept, const HandSenses& senses, double dt
   switch (step_) {
     case Step::kReach:
       intent.X_TI = {turn_.at(in_step_s_), plan_.at(in_step_s_)};
-      if (in_step_s_ > std::max(plan_.duration_s(), turn_.duration_s())) enter(Step::kLook);
+      if (in_step_s_ > turn_.duration_s()) enter(Step::kLook);
       return;
     case Step::kLook:
       return look(percept, dt_s, intent, random);

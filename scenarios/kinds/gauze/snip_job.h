@@ -24,6 +24,8 @@ class SnipJob : public HandWork {
   enum class Step : std::uint8_t { kReach, kLook, kPress, kClose, kNext };
 
   void enter(Step step);
+  double missing_roll(const Percept& percept) const;
+  Wrist::Held rolled(const Percept& percept, double roll_rad) const;
   void reach(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void follow(const Percept& percept, double dt_s, HandIntent& intent) const;
   void look(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
@@ -35,7 +37,8 @@ class SnipJob : public HandWork {
 
   HandSkill skill_;
   ReachPlan plan_;
-  TurnPlan turn_;
+  Wrist wrist_;
+  WristPlan turn_;
   Step step_ = Step::kReach;
   double in_step_s_ = 0, goal_n_ = 0;
 };

@@ -19,12 +19,17 @@ constexpr double kNeedleLate = 0.16, kNeedleLook = 0.05;  // s: the eyes are tha
 constexpr double kQuickestNeedle = 0.15;                  // s of a reach
 constexpr double kPressOn = 0.0025;     // m by which tissue gives way before the point goes in, as a person expects
 constexpr double kNeedleClear = 0.010;  // m to which the needle is lifted
-constexpr double kKeepGain = 2, kKeepRest = 0.0003;  // 1/s by which it is kept over the dot; m that are not seen
-constexpr double kSteerGain = 0.8, kSteersFrom = 0.002, kMostSteered = 0.004;  // 1/s; m, of settle_share; m
-constexpr double kPressTime = 0.8;                                             // s, before speed_factor
-constexpr double kRollSpeed = 45 * kDegree;                                    // rad/s, before speed_factor
-constexpr double kBeyond = 48 * kDegree;                              // of the needle that shall stand out at the end
+constexpr double kShovedIn = 0.0007, kShovedOut = 0.0013;  // m
+constexpr double kKeepGain = 2, kKeepRest = 0.0003;        // 1/s by which it is kept over the dot; m that are not seen
+constexpr double kSteerGain = 2, kSteersFrom = 0.0015, kMostSteered = 0.004;  // 1/s; m, of settle_share; m
+constexpr double kPressTime = 0.8;                                            // s, before speed_factor
+constexpr double kRollSpeed = 45 * kDegree;                                   // rad/s, before speed_factor
+constexpr double kMostHeldBack = 0.4;     // rad by which friction keeps the needle behind the fingers
+constexpr double kQuickestRoll = 4;       // rad/s of a turn in the air
+constexpr double kBeyond = 48 * kDegree;  // of the needle that shall stand out at the end
 constexpr double kRollMore = 12 * kDegree, kMostMore = 30 * kDegree;  // while it does not; before it is given up
+constexpr double kMostAsked = 100 * kDegree;                          // of a roll that brings the point over the dot
+constexpr double kMostAhead = 45 * kDegree;                           // of what is seen to have been rolled
 constexpr double kDrawRoll = 145 * kDegree;
 constexpr double kDrawOut = 0.030;                             // m
 constexpr double kTurnAim = 30 * kDegree, kTurnAtRest = 0.15;  // of the aim error of turns
@@ -38,6 +43,12 @@ double half_angle(const Percept& percept) {
   return std::asin(std::min(1.0, half / percept.object.size_m.y()));
 }
 
+/// Where to aim so that the hole comes to lie there, as a person expects: tissue is shoved along under a shaft that
+/// leans.
+Vec3 aim_T(const Percept& percept, const Vec3& dot_T, double shoved_m) {
+  return dot_T - shoved_m * aside(percept.R_TI.col(2), percept.target_normal_T);
+}
+
 Vec3 point_N(const Percept& percept) { return {-percept.object.size_m.y(), 0, 0}; }
 
 }  // namespace
@@ -48,6 +59,7 @@ void NeedleJob::enter(Step step) {
 }
 
 void NeedleJob::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
+  wrist_.begin(percept.R_TI);
   cue_ = percept.cue;
   noticed_s_ = 0;
   start(percept, intent, random);
@@ -63,17 +75,23 @@ void NeedleJob::start(const Percept& percept, const HandIntent& intent, HandRand
 void NeedleJob::straight(Step step, const HandIntent& intent, const Vec3& way) {
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way,
                     {0, Vec3::Zero(), 0, reach_time_s(way.norm(), kOverNeedle, skill_.speed_factor)});
-  turn_ = TurnPlan(intent.X_TI.R, intent.X_TI.R, plan_.duration_s());
+  const Wrist::Held now = wrist_.held(intent.X_TI.R);
+  turn_ = WristPlan(wrist_, now, now, plan_.duration_s());
   enter(step);
 }
 
 /// As it is seen to be missing, and as well as the person aims.
-void NeedleJob::turn_to(const Mat3& R_missing, const HandIntent& intent, HandRandom& random) {
-  const double angle = Eigen::AngleAxisd(R_missing).angle();
+void NeedleJob::turn_to(const Percept& percept, const Mat3& R_goal, const HandIntent& intent, HandRandom& random) {
+  const double angle = Eigen::AngleAxisd(Mat3(R_goal * percept.R_TI.transpose())).angle();
   const double noise = skill_.aim_angle_rad * std::sqrt(std::min(1.0, angle / kTurnAim) + kTurnAtRest);
   const Vec3 error = noise * Vec3(random.normal(), random.normal(), random.normal());
-  const double time = reach_time_s(angle, kTurnAim, skill_.speed_factor);
-  turn_ = TurnPlan(intent.X_TI.R, rotation_by(error) * R_missing * intent.X_TI.R, std::max(time, plan_.duration_s()));
+  const Wrist::Held seen = wrist_.held(percept.R_TI), now = wrist_.held(intent.X_TI.R, seen);
+  Wrist::Held then = wrist_.held(rotation_by(error) * R_goal);
+  const double way = then.roll_rad - seen.roll_rad;
+  then.roll_rad += std::clamp(now.roll_rad - seen.roll_rad, -kMostHeldBack, kMostHeldBack);
+  const double aimed = reach_time_s(angle, kTurnAim, skill_.speed_factor);
+  const double rolled = std::abs(way) / kQuickestRoll * skill_.speed_factor;
+  turn_ = WristPlan(wrist_, now, then, std::max({aimed, rolled, plan_.duration_s()}));
 }
 
 void NeedleJob::open(const Percept& percept, double dt_s, HandIntent& intent) {
@@ -86,7 +104,7 @@ void NeedleJob::open(const Percept& percept, double dt_s, HandIntent& intent) {
 void NeedleJob::go(Step step, const Percept& percept, double over_m, const HandIntent& intent, HandRandom& random) {
   const Vec3 way = percept.goal_T - over_m * percept.target_R_TI.col(2) - percept.tip_T;
   plan_ = aimed_reach(intent.X_TI.p, way, percept.target_radius_m, kQuickestNeedle, skill_, random);
-  turn_to(percept.target_R_TI * percept.R_TI.transpose(), intent, random);
+  turn_to(percept, percept.target_R_TI, intent, random);
   enter(step);
 }
 
@@ -123,11 +141,12 @@ void NeedleJob::bring(const Percept& percept, const HandIntent& intent, HandRand
   const Vec3 wanted = std::cos(angle) * side + std::sin(angle) * up;
   const Vec3 point = aside(-(R * X_IN.R).col(0), shaft);
   const double roll = std::atan2(point.cross(wanted).dot(shaft), point.dot(wanted));
+  if (std::abs(roll) > kMostAsked) return enter(Step::kOpen);  // held by the wrong end: no wrist turns that far
   const Mat3 R_goal = Eigen::AngleAxisd(roll, shaft).toRotationMatrix() * R;
-  over_T_ = percept.target_T + kOverDot * percept.target_normal_T;
+  over_T_ = aim_T(percept, percept.target_T, kShovedIn) + kOverDot * percept.target_normal_T;
   const Vec3 goal = over_T_ - R_goal * (X_IN * point_N(percept));
   plan_ = aimed_reach(intent.X_TI.p, goal - percept.tip_T, percept.target_radius_m, kQuickestNeedle, skill_, random);
-  turn_to(R_goal * percept.R_TI.transpose(), intent, random);
+  turn_to(percept, R_goal, intent, random);
   rolled_rad_ = 0;
   by_rad_ = 2 * half_angle(percept) + kBeyond;
   enter(Step::kBring);
@@ -148,9 +167,10 @@ void NeedleJob::see(const Percept& percept, const HandIntent& intent, HandRandom
   enter(Step::kPress);
 }
 
-/// Presses it on, and keeps it over the dot as far as that is seen.
+/// Presses it on, and keeps it over the dot, which goes along with the tissue, as far as that is seen.
 void NeedleJob::press(const Percept& percept, double dt_s, HandIntent& intent) {
-  const Vec3 off = over_T_ - percept.object.X_TO * point_N(percept), normal = percept.target_normal_T;
+  const Vec3 off = aim_T(percept, percept.target_T, kShovedIn) - percept.object.X_TO * point_N(percept);
+  const Vec3& normal = percept.target_normal_T;
   const Vec3 beside = off - off.dot(normal) * normal;
   if (const double size = beside.norm(); size > kKeepRest)
     aside_ += beside * (kKeepGain / skill_.speed_factor * (1 - kKeepRest / size) * dt_s);
@@ -163,6 +183,7 @@ void NeedleJob::begin_roll(Step step, const Percept& percept, double by_rad, con
   const double noise = std::sqrt(kTurnAtRest) * skill_.aim_lateral_m;
   const Vec3 error = noise * Vec3(random.normal(), random.normal(), random.normal());
   from_ = intent.X_TI;
+  hinge_T_ = percept.R_TI.col(0);
   aside_ = Vec3::Zero();
   middle_T_ = intent.X_TI.p + percept.object.X_TO.p - percept.tip_T + error;
   shaft_T_ = percept.R_TI.col(2);
@@ -171,8 +192,11 @@ void NeedleJob::begin_roll(Step step, const Percept& percept, double by_rad, con
   enter(step);
 }
 
-void NeedleJob::roll(HandIntent& intent) const {
-  const double angle = -by_rad_ * minimum_jerk(in_step_s_ / roll_s_);
+void NeedleJob::roll(const Percept& percept, HandIntent& intent) const {
+  const Vec3 hinge = percept.R_TI.col(0);
+  const double seen = std::atan2(hinge_T_.cross(hinge).dot(shaft_T_), hinge_T_.dot(hinge));
+  // Fingers feel what holds the needle, and do not wind up against it.
+  const double angle = std::clamp(-by_rad_ * minimum_jerk(in_step_s_ / roll_s_), seen - kMostAhead, seen + kMostAhead);
   const Mat3 R = Eigen::AngleAxisd(angle, shaft_T_).toRotationMatrix();
   intent.X_TI = {R * from_.R, middle_T_ + R * (from_.p - middle_T_)};
 }
@@ -180,7 +204,8 @@ void NeedleJob::roll(HandIntent& intent) const {
 /// Keeps the circle, as it is seen, on the second dot: what tissue gives way is made up for.
 void NeedleJob::steer(const Percept& percept, double dt_s, HandIntent& intent) {
   const Pose& X_TN = percept.object.X_TO;
-  const Vec3 dot_N = X_TN.inverse() * percept.goal_T, out_N = Vec3(dot_N.x(), dot_N.y(), 0).normalized();
+  const Vec3 dot_N = X_TN.inverse() * aim_T(percept, percept.goal_T, kShovedOut),
+             out_N = Vec3(dot_N.x(), dot_N.y(), 0).normalized();
   const Vec3 off_N = (dot_N - dot_N.z() * Vec3::UnitZ()).norm() * out_N - percept.object.size_m.y() * out_N +
                      dot_N.z() * Vec3::UnitZ();
   const double seen = skill_.settle_share * kSteersFrom;
@@ -244,15 +269,15 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
       if (in_step_s_ > plan_.duration_s()) begin_roll(Step::kRoll, percept, by_rad_, intent, random);
       return;
     case Step::kRoll:
-      roll(intent);
+      roll(percept, intent);
       steer(percept, dt_s, intent);
       return rolled(percept, intent, random);
     case Step::kUnroll:
-      roll(intent);
+      roll(percept, intent);
       if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kNeedleClear * percept.target_normal_T);
       return;
     case Step::kDraw:
-      roll(intent);
+      roll(percept, intent);
       if (in_step_s_ > roll_s_)
         straight(Step::kRaise, intent, kDrawOut * (percept.target_normal_T + Vec3::UnitZ()).normalized());
       return;

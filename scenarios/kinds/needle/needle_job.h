@@ -49,19 +49,20 @@ class NeedleJob : public HandWork {
   void shut(double dt_s, HandIntent& intent) const;
   void close(double dt_s, HandIntent& intent);
   void straight(Step step, const HandIntent& intent, const Vec3& way);
-  void turn_to(const Mat3& R_missing, const HandIntent& intent, HandRandom& random);
+  void turn_to(const Percept& percept, const Mat3& R_goal, const HandIntent& intent, HandRandom& random);
   void bring(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void see(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void press(const Percept& percept, double dt_s, HandIntent& intent);
   void begin_roll(Step step, const Percept& percept, double by_rad, const HandIntent& intent, HandRandom& random);
-  void roll(HandIntent& intent) const;
+  void roll(const Percept& percept, HandIntent& intent) const;
   void steer(const Percept& percept, double dt_s, HandIntent& intent);
   void rolled(const Percept& percept, const HandIntent& intent, HandRandom& random);
   bool moves(HandIntent& intent) const;
 
   HandSkill skill_;
   ReachPlan plan_;
-  TurnPlan turn_;
+  Wrist wrist_;
+  WristPlan turn_;
   Step step_ = Step::kOpen;
   Cue cue_ = Cue::kNone;
   double in_step_s_ = 0, noticed_s_ = 0;
@@ -70,6 +71,7 @@ class NeedleJob : public HandWork {
   Vec3 middle_T_ = Vec3::Zero();    ///< about which it is rolled,
   Vec3 shaft_T_ = Vec3::UnitZ();    ///< and along which,
   Pose from_;                       ///< from where,
+  Vec3 hinge_T_ = Vec3::UnitX();    ///< as it was seen then,
   double by_rad_ = 0, roll_s_ = 1;  ///< by how much, in how long
   double rolled_rad_ = 0;           ///< since the point was pressed on
   int corrections_ = 0;

@@ -10,6 +10,7 @@ namespace trocar {
 namespace {
 
 constexpr double kToldNeedleFor = 3;     // s for which a mistake is shown
+constexpr double kSlides = 0.3;          // s in which a point that opens the surface and is out again has slid
 constexpr double kPointWayStep = 0.001;  // m of the point's way that is judged at once: less is tremor
 constexpr double kInDegrees = 180 / std::numbers::pi;
 
@@ -88,11 +89,11 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
     way_deg_m_ = way_m_ = 0;
     point_T_ = needle.X_TN * own_.shape.place(own_.shape.length_m);
     point_along_T_ = needle.X_TN.R * own_.shape.tangent(own_.shape.length_m);
-    const double off = (bite_.entry_rest_T - entry.centre_T).norm();
-    log.add(event_type::kBiteBegun, off > tolerance_m_ ? Severity::kMinor : Severity::kInfo, pair_, off, "m");
-    if (off > tolerance_m_) blame({"Beside the dot", "Draw it back out, or take more care at the next one."}, log);
+    in_since_s_ = log.t_s;
+    told_in_ = false;
   }
   if (!in_ || !in) return;
+  if (!told_in_ && (needle.bite[0].through || log.t_s - in_since_s_ >= kSlides)) tell_bite(log);
   const bool came_out = needle.bite[0].through && !bite_.through;
   if (!needle.bite[0].through && held_) follow_point(needle);
   bite_ = needle.bite[0];
@@ -102,6 +103,13 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
   if (off > tolerance_m_) blame({"Out beside the dot", "Follow the needle's own circle."}, log);
 }
 
+void NeedleTask::tell_bite(EventLog& log) {
+  told_in_ = true;
+  const double off = (bite_.entry_rest_T - targets_[static_cast<std::size_t>(pair_)].centre_T).norm();
+  log.add(event_type::kBiteBegun, off > tolerance_m_ ? Severity::kMinor : Severity::kInfo, pair_, off, "m");
+  if (off > tolerance_m_) blame({"Beside the dot", "Draw it back out, or take more care at the next one."}, log);
+}
+
 void NeedleTask::end_bite(const TissueFrame& frame, EventLog& log) {
   in_ = false;
   if (frame.suture.tears > tears_) {
@@ -109,6 +117,7 @@ void NeedleTask::end_bite(const TissueFrame& frame, EventLog& log) {
     return blame({"The tissue is torn", "Turn the needle about its circle, never across it."}, log);
   }
   if (frame.suture.stitches == stitches_) {
+    if (!told_in_) return;
     log.add(event_type::kBiteUndone, Severity::kMinor, pair_);
     grips_ = std::min(grips_, 1);
     return blame({"Drawn back out", "Go in anew at the dot."}, log);

@@ -6,8 +6,9 @@
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit) of each pair; NEEDLE_GRIPPED (share of the needle's length from its
 // point), minor where it is grasped outside its share, or oftener than once to drive and once to draw; BITE_BEGUN
-// (m from the first dot) as the point goes in; BITE_THROUGH (m from the second) as it has come out; both minor beyond
-// the level's tolerance; BITE_UNDONE: drawn back out, which is to be done again; NEEDLE_DRAWN (deg): angle between the
+// (m from the first dot) once the point has been in for 0.3 s, or is through: what ends sooner is a point that slides
+// over the surface, and no bite; BITE_THROUGH (m from the second) as it has come out; both minor beyond the level's
+// tolerance; BITE_UNDONE: drawn back out, which is to be done again; NEEDLE_DRAWN (deg): angle between the
 // point's way in and that of a circle through both dots across the shaft, and mean angle between the point's way
 // through the tissue and its own direction, together; NEEDLE_LOST (m from the region's centre): let go and in no tissue
 // for so long that another takes its place; critical outside the field. A critical TEAR (N across the needle): torn out
@@ -43,6 +44,7 @@ class NeedleTask final : public ExerciseTask {
   void follow_grip(const TissueFrame& frame, EventLog& log);
   void follow_bite(const TissueFrame& frame, EventLog& log);
   void follow_point(const NeedleSight& needle);
+  void tell_bite(EventLog& log);
   void end_bite(const TissueFrame& frame, EventLog& log);
   void follow_needles(const TissueFrame& frame, EventLog& log);
   void blame(Told told, EventLog& log);
@@ -60,8 +62,9 @@ class NeedleTask final : public ExerciseTask {
   int pairs_, pair_ = 0, errors_ = 0;
   int grips_ = 0, point_grips_ = 0;  ///< of this pair
   bool held_ = false, drawn_ = false, in_ = false;
-  NeedleBite bite_;  ///< the present one, as it was seen last
-  double entry_deg_ = 0, way_deg_m_ = 0, way_m_ = 0;
+  bool told_in_ = false;  ///< that it is in
+  NeedleBite bite_;       ///< the present one, as it was seen last
+  double in_since_s_ = 0, entry_deg_ = 0, way_deg_m_ = 0, way_m_ = 0;
   Vec3 point_T_ = Vec3::Zero(), point_along_T_ = Vec3::UnitZ(), needle_T_ = Vec3::Zero();
   std::int32_t tears_ = 0, needles_ = 0, stitches_ = 0;
   double lit_at_s_ = 0, now_s_ = 0;

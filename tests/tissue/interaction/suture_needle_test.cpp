@@ -201,6 +201,17 @@ TEST(SutureNeedle, LetGoItStaysWhereItIsAndCanBeTakenAgain) {
   EXPECT_TRUE(rig.needle.paths().empty());
 }
 
+TEST(SutureNeedle, ClosingPadsKeepWhatLiesAtTheirEdge) {
+  test::NeedleRig rig;
+  rig.step(std::nullopt);
+  rig.needle.place(rig.turned(0));
+  rig.needle.stand();
+  Pose jaws = rig.jaws_at(0);
+  jaws.p += (rig.needle.shape().wire_radius_m + 0.001) * jaws.R.col(1);
+  for (int i = 0; i <= 21; ++i) rig.step(DriverJaws{jaws, 0.0002 * (20 - i)});
+  EXPECT_TRUE(rig.needle.held()) << "they press beyond the wire's width";
+}
+
 TEST(SutureNeedle, PulledAcrossItTearsOut) {
   test::NeedleRig rig;
   turn(rig, 0, kIn);

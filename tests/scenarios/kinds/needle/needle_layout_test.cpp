@@ -18,7 +18,7 @@ namespace {
 constexpr double kTop = 0.01;  // m of the plate
 
 Exercise needle_driving() {
-  return find_exercise("needle-driving", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded");
+  return find_exercise("needle-driving", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
 }
 
 TriangleSurface plate(double edge) {

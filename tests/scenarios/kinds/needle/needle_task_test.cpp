@@ -20,9 +20,7 @@ namespace {
 constexpr double kStep_s = 0.01;
 constexpr int kPairs = 2;
 
-Exercise shipped() {
-  return find_exercise("E12", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded");
-}
+Exercise shipped() { return find_exercise("E12", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises"); }
 
 /// A told needle, the shaft along y over flat tissue; the exercise has begun.
 struct Bench {
@@ -197,11 +195,27 @@ TEST(NeedleTask, ABiteThatIsUndoneCountsAndItsErrorStays) {
   Bench bench;
   bench.grip(0.58);
   bench.go_in(0, 0.002);
+  bench.step(0.5);
   bench.withdraw();
   EXPECT_EQ(bench.count(event_type::kBiteUndone, Severity::kMinor), 1);
   bench.go_in(0);
+  bench.step(0.5);
   EXPECT_NEAR(bench.metric("entry_error_m"), 0.001, 1e-12) << "mean of both: going in again washes nothing off";
   EXPECT_EQ(bench.metric("needle_redos"), 1);
+}
+
+TEST(NeedleTask, APointThatSlidesOverTheSurfaceHasNotBitten) {
+  Bench bench;
+  bench.grip(0.58);
+  for (int i = 0; i < 5; ++i) {
+    bench.go_in(0, 0.004);
+    bench.withdraw();
+  }
+  EXPECT_EQ(bench.metric("entry_error_m"), -1) << "nothing was told";
+  EXPECT_EQ(bench.metric("needle_redos"), 0);
+  bench.go_in(0, 0.001);
+  bench.come_out(0);
+  EXPECT_NEAR(bench.metric("entry_error_m"), 0.001, 1e-12) << "of the bite that held";
 }
 
 TEST(NeedleTask, ADroppedNeedleIsARedoAndALostOneCritical) {
@@ -247,6 +261,7 @@ TEST(NeedleTask, DwellingAndTheClutchEarnNothing) {
   Bench bench;
   bench.grip(0.58);
   bench.go_in(0, 0.001);
+  bench.step(0.5);
   const std::size_t events = bench.director.events().size();
   bench.step(5);
   bench.stylus.clutched = true;
