@@ -81,6 +81,6 @@ void renew_station_key(Database& database) {
   transaction.commit();
 }
 
-std::string key_words(const std::string& public_key) { return public_key.substr(0, kShown); }
+std::string key_words(const std::string& digits) { return digits.substr(0, kShown); }
 
 }  // namespace trocar

@@ -25,7 +25,7 @@ std::vector<AnnouncedKey> station_keys(const Database& database);
 /// A new key, named in the trail; the old file stays beside it under its public key. @throws EnvironmentError.
 void renew_station_key(Database& database);
 
-/// First digits of a public key, as pages and prints show it.
-std::string key_words(const std::string& public_key);
+/// First digits of a hash or a public key, as pages and prints show them.
+std::string key_words(const std::string& digits);
 
 }  // namespace trocar

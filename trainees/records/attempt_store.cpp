@@ -242,8 +242,10 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");
   row.bind(id.uuid).step();
   id.row = row.integer(0);
-  id.key = station_key(database_->file());
-  id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump();
+  if (!database_->in_memory()) {  // what vanishes with the program binds nothing, and equal runs give equal files
+    id.key = station_key(database_->file());
+    id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump();
+  }
   transaction.commit();
   return id;
 }
@@ -338,9 +340,13 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
 std::string AttemptStore::recording_problem(const std::string& attempt_uuid, const std::string& identity,
                                             const std::string& signed_by) const {
   sqlite3* connection = database_->connection();
-  sql::Statement version(connection, "SELECT hash_version FROM attempt WHERE uuid = ?");
-  if (!version.bind(attempt_uuid).step()) throw InputError("attempt " + attempt_uuid + ": not in this database");
-  if (version.integer(0) < kFirstBoundVersion || is_demo(*database_)) return "";
+  sql::Statement attempt(
+      connection,
+      "SELECT hash_version, EXISTS (SELECT 1 FROM replica r WHERE r.attempt_id = a.id) FROM attempt a"
+      " WHERE uuid = ?");
+  if (!attempt.bind(attempt_uuid).step()) throw InputError("attempt " + attempt_uuid + ": not in this database");
+  if (attempt.integer(0) < kFirstBoundVersion || database_->in_memory() || is_demo(*database_)) return "";
+  const bool of_another_station = attempt.integer(1) != 0;  // whose keys stand in its own trail
   const auto said = nlohmann::ordered_json::parse(identity, nullptr, false);
   if (!said.is_object()) return "does not say whose it is";
   const auto wanted = identity_of(connection, attempt_uuid, said.value("key", ""));
@@ -351,7 +357,7 @@ std::string AttemptStore::recording_problem(const std::string& attempt_uuid, con
   const auto keys = announced_keys(connection);
   const bool known =
       std::any_of(keys.begin(), keys.end(), [&](const AnnouncedKey& key) { return key.public_key == signed_by; });
-  if (keys.empty() || known) return "";
+  if (keys.empty() || known || (of_another_station && !signed_by.empty())) return "";
   return signed_by.empty() ? "is not signed with the station's key" : "is signed with another station's key";
 }
 

@@ -119,7 +119,8 @@ class AttemptStore {
   std::string exercise_text(const std::string& rubric_sha256) const;
 
   /// Why a recording is not that of the attempt, "" when it is: what it says of itself, and by which key that is
-  /// signed. Nothing is asked of those that began before recordings named their attempt, nor of a demo's.
+  /// signed. Nothing is asked of those that began before recordings named their attempt, nor of a demo's; of those of
+  /// other stations, that they are signed.
   std::string recording_problem(const std::string& attempt_uuid, const std::string& identity,
                                 const std::string& signed_by) const;
 

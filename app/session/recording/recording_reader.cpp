@@ -88,6 +88,7 @@ class Parser {
   void accept(const Chunk& chunk) {
     if (recording_.end && (chunk.type != ChunkType::kLink || sealed()))
       return report(chunk.offset, "stands after the END");
+    if (chunk.type == ChunkType::kLink) return accept_link(chunk);
     try {
       switch (chunk.type) {
         case ChunkType::kHeader:
@@ -107,8 +108,8 @@ class Parser {
           return recording_.tissue.add_keyframes(chunk.payload);
         case ChunkType::kTopology:
           return recording_.tissue.add_changes(chunk.payload);
-        case ChunkType::kLink:
-          return accept_link(chunk);
+        case ChunkType::kLink:  // above
+          return;
         case ChunkType::kEnd:
           recording_.end = decode_end(chunk.payload);
           ended_at_ = chunk.end();
@@ -145,6 +146,7 @@ class Parser {
   }
 
   void accept_link(const Chunk& chunk) {
+    if (recording_.version < kFirstWithLinks) return;
     const std::string_view said = chunk.payload.substr(0, kLinkHashSize), signature = chunk.payload.substr(said.size());
     if (make_link(link_, file_.substr(linked_to_, chunk.offset - linked_to_), std::nullopt) != said)
       report(chunk.offset, "does not hold together with what is before it: something was changed, added or left out");

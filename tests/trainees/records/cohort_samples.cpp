@@ -124,7 +124,7 @@ class Filler {
                        : chance < 0.05 ? AttemptStatus::kTimeout
                                        : AttemptStatus::kCompleted;
     out.grade.grade = "not graded";
-    out.recording_sha256 = std::string(64, 'b');
+    out.recording_sha256 = digest::of_bytes("recording " + std::to_string(++recorded_));
     out.state_hash = "0123456789abcdef";
     out.device.backend = "simulated";
     out.device.rate_hz = 1000;
@@ -183,6 +183,7 @@ class Filler {
   sqlite3* connection_;
   CohortPlan plan_;
   std::mt19937 random_;
+  int recorded_ = 0;
   std::vector<std::string> names_, shas_;
   std::vector<std::int64_t> ids_;
   std::vector<double> talent_;

@@ -9,6 +9,7 @@
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/desk_views.h"
+#include "trainees/integrity/witness.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/certificate_standing.h"
 #include "trainees/records/verdicts.h"
@@ -117,6 +118,18 @@ std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certific
   return out;
 }
 
+/// On paper elsewhere it is what no later rewriting of the record can change (witness.h).
+std::string witness_words(const Database& database, const std::string& uuid) {
+  sql::Statement entry(database.connection(),
+                       "SELECT position, row_hash FROM audit WHERE subject = ? AND action = 'certificate added'");
+  if (!entry.bind(uuid).step()) return "";
+  std::string out = "entry " + std::to_string(entry.integer(0)) + " of the audit trail, " + key_words(entry.text(1));
+  for (const AnnouncedKey& key : station_keys(database))
+    if (key.position <= entry.integer(0))
+      out = out.substr(0, out.find(", key ")) + ", key " + key_words(key.public_key);
+  return out;
+}
+
 void read_stiffness(AttemptView& view, Desk& desk) {
   if (!view.trace || !desk.sources.stiffness) return;
   try {
@@ -192,6 +205,7 @@ CertificateView certificate_view(Desk& desk, const std::string& uuid) {
   const CertificateStanding standing = standing_of(desk.database, out.certificate);
   out.attempts = attempts_behind(desk.database, standing);
   if (out.certificate.revoked_utc.empty()) out.in_question = standing.in_question;
+  out.witness = witness_words(desk.database, uuid);
   return out;
 }
 

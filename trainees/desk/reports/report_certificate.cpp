@@ -109,7 +109,8 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
   const auto found = static_cast<int>(view.attempts.size());
   out.evidence_words = plural(found, "attempt", "attempts") +
                        " with the first 32 digits of the hash of its row in the record" +
-                       (view.n > 0 && found != view.n ? "; the judgement counted " + std::to_string(view.n) : "");
+                       (view.n > 0 && found != view.n ? "; the judgement counted " + std::to_string(view.n) : "") +
+                       (view.witness.empty() ? "" : "; this certificate is " + view.witness);
   out.not_attested = not_attested(totals);
   out.certified_by = c.printed.empty() ? none : c.printed;
   out.date = moment_text(c.utc);

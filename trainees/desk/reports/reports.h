@@ -63,6 +63,7 @@ struct CertificateView {
   int n = 0;                                    ///< that the judgement rested on; 0: not recorded
   std::optional<double> reliability = {};
   std::string in_question = {};  ///< why it may not stand; "" while all that it stands on holds
+  std::string witness = {};      ///< the certificate's own entry of the audit trail and the key that signed it
 };
 printed::CertificateSheet certificate_sheet(const CertificateView& view, const ReportSetting& setting);
 

@@ -16,6 +16,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "tests/app/session/playback/playback_samples.h"
+#include "tests/app/session/recording/recording_samples.h"
 #include "tests/app/session/recording/waving_world.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -236,7 +237,7 @@ TEST_F(WavingAttempt, StopsWhereAKeyframeCannotBeDecoded) {
     if (chunk->type == ChunkType::kKeyframes && ++chunks == 5) payload.resize(payload.size() - 9);
     forged += make_chunk(chunk->type, payload);
   }
-  const RecordedRun run(folder_.write("forged.trec", forged), find_assets());
+  const RecordedRun run(folder_.write("forged.trec", relinked(forged)), find_assets());
   EXPECT_NEAR(run.at(1).t_s, 1, 0.011);
   EXPECT_EQ(run.failure(), "");
   EXPECT_NEAR(run.at(2.5).record.stylus.X_TI.p.x(), 0.02 * std::sin(2.5), 3e-4) << "the row is there";

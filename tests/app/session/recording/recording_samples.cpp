@@ -4,7 +4,9 @@
 #include <numbers>
 #include <random>
 
+#include "app/session/recording/chunk.h"
 #include "app/session/recording/recording_writer.h"
+#include "app/session/recording/seal.h"
 
 namespace trocar {
 namespace {
@@ -109,6 +111,20 @@ std::string small_recording(int seconds, int rate, std::uint64_t seed) {
   }
   writer.close({0x0123456789abcdef, AttemptStatus::kCompleted, 0, 0, R"({"score":81})"});
   return sink.bytes();
+}
+
+std::string relinked(const std::string& recording) {
+  std::string out, link, since = recording.substr(0, kRecordingPrefixSize);
+  for (auto chunk = chunk_at(recording, kRecordingPrefixSize); chunk; chunk = chunk_at(recording, chunk->end())) {
+    if (chunk->type != ChunkType::kLink) {
+      since += recording.substr(chunk->offset, chunk->end() - chunk->offset);
+      continue;
+    }
+    link = make_link(link, since, std::nullopt);
+    out += since + make_chunk(ChunkType::kLink, link);
+    since.clear();
+  }
+  return out + since;
 }
 
 }  // namespace trocar

@@ -21,4 +21,7 @@ std::vector<Event> sample_events();
 /// A small whole recording in memory: `seconds` chunks of `rate` rows, events, END.
 std::string small_recording(int seconds, int rate, std::uint64_t seed);
 
+/// The same chunks with every link made again, as somebody without a key does who has changed some of them.
+std::string relinked(const std::string& recording);
+
 }  // namespace trocar

@@ -11,6 +11,7 @@
 #include "app/session/recording/chunk.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/recording/recording_writer.h"
+#include "tests/app/session/recording/recording_samples.h"
 
 namespace trocar::recording_schedule_test {
 namespace {
@@ -100,6 +101,7 @@ TEST(Schedule, ARepeatedScheduleChunkIsDamage) {
   const auto chunk = chunk_at(bytes, at);
   ASSERT_TRUE(chunk);
   bytes.insert(chunk->end(), bytes.substr(at, chunk->end() - at));
+  bytes = relinked(bytes);
   EXPECT_THROW(parse_recording(bytes, "twice"), InputError);
   EXPECT_EQ(parse_recording(bytes, "twice", Reading::kTolerant).damage.size(), 1u);
 }

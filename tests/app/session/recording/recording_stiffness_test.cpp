@@ -91,17 +91,19 @@ TEST(FormatTwo, IsStillRead) {
   EXPECT_FALSE(recording.schedule.steps.empty()) << "formats from 2 on have a schedule";
 }
 
-TEST(FormatFour, IsWhatIsWrittenAndANewerOneIsRefused) {
+TEST(FormatFive, IsWhatIsWrittenAndANewerOneIsRefused) {
   std::string bytes = small_recording(1, 100, 1);
-  EXPECT_EQ(parse_recording(bytes, "now").version, 4u);
+  EXPECT_EQ(parse_recording(bytes, "now").version, 5u);
   ++bytes[kRecordingMagic.size()];
   EXPECT_THROW(parse_recording(bytes, "next"), InputError);
 }
 
 TEST(FormatThree, IsReadAsBeforeKeyframes) {
   std::string bytes = small_recording(1, 100, 1);
-  --bytes[kRecordingMagic.size()];
-  EXPECT_EQ(parse_recording(bytes, "before").version, 3u);
+  bytes[kRecordingMagic.size()] = 3;
+  const Recording read = parse_recording(bytes, "before");
+  EXPECT_EQ(read.version, 3u);
+  EXPECT_EQ(read.signed_by, "") << "what says that it is older has no links";
 }
 
 TEST(FormatThree, AVersionThatItsChannelsContradictIsRefused) {

@@ -143,7 +143,7 @@ TEST_F(DeskStory, ByKeyboardAlone) {
   browser_->press(key::kEnter);
   browser_->until("the first event", [&] { return browser_->text("#moment-h").find("20.0 s") != std::string::npos; });
   browser_->tab_to("#sign-note");
-  browser_->press("seen");
+  browser_->press(std::string("seen") + key::kTab + kDeskPassword);
   enter();
   EXPECT_NE(browser_->text("#sign tbody").find("seen"), std::string::npos);
   browser_->tab_to("#note-text");
