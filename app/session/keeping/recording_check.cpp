@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/session/grading/recorded_result.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -37,10 +38,10 @@ std::string graded_problem(const AttemptResult& stored, const Recording& recordi
 
 /// The recording that the attempt was kept with; nothing where another, or none, lies in its place.
 std::optional<Recording> kept_recording(const AttemptResult& stored) {
-  if (stored.recording_sha256.empty() || !std::filesystem::is_regular_file(stored.recording_path)) return std::nullopt;
-  Recording recording = read_recording(stored.recording_path);
-  if (recording.sha256 != stored.recording_sha256) return std::nullopt;
-  return recording;
+  if (stored.recording_sha256.empty() || !std::filesystem::is_regular_file(stored.recording_path) ||
+      digest::of_readable_file(stored.recording_path) != stored.recording_sha256)
+    return std::nullopt;
+  return read_recording(stored.recording_path);
 }
 
 }  // namespace

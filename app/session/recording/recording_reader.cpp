@@ -86,6 +86,8 @@ class Parser {
 
   /// Takes over one whole chunk.
   void accept(const Chunk& chunk) {
+    if (chunk.type == ChunkType::kLink && recording_.version < kFirstWithLinks)
+      return report(chunk.offset, "is of a newer format than the file says");
     if (recording_.end && (chunk.type != ChunkType::kLink || sealed()))
       return report(chunk.offset, "stands after the END");
     if (chunk.type == ChunkType::kLink) return accept_link(chunk);
@@ -146,7 +148,6 @@ class Parser {
   }
 
   void accept_link(const Chunk& chunk) {
-    if (recording_.version < kFirstWithLinks) return;
     const std::string_view said = chunk.payload.substr(0, kLinkHashSize), signature = chunk.payload.substr(said.size());
     if (make_link(link_, file_.substr(linked_to_, chunk.offset - linked_to_), std::nullopt) != said)
       report(chunk.offset, "does not hold together with what is before it: something was changed, added or left out");

@@ -75,7 +75,7 @@ std::string as_format_2(const std::string& bytes) {
     std::string payload(chunk->payload);
     if (chunk->type == ChunkType::kHeader) payload = header_2(payload);
     if (chunk->type == ChunkType::kTicks) payload = encoder.encode(decode_ticks(payload), channels);
-    out += make_chunk(chunk->type, payload);
+    if (chunk->type != ChunkType::kLink) out += make_chunk(chunk->type, payload);
     at = chunk->end();
   }
   return out;

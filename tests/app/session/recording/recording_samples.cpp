@@ -127,4 +127,12 @@ std::string relinked(const std::string& recording) {
   return out + since;
 }
 
+std::string unlinked(const std::string& recording, char version) {
+  std::string out = recording.substr(0, kRecordingPrefixSize);
+  out[kRecordingMagic.size()] = version;
+  for (auto chunk = chunk_at(recording, kRecordingPrefixSize); chunk; chunk = chunk_at(recording, chunk->end()))
+    if (chunk->type != ChunkType::kLink) out += recording.substr(chunk->offset, chunk->end() - chunk->offset);
+  return out;
+}
+
 }  // namespace trocar

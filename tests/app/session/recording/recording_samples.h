@@ -23,5 +23,7 @@ std::string small_recording(int seconds, int rate, std::uint64_t seed);
 
 /// The same chunks with every link made again, as somebody without a key does who has changed some of them.
 std::string relinked(const std::string& recording);
+/// The same chunks without links, as formats before 5 have them. @param version that the file says.
+std::string unlinked(const std::string& recording, char version);
 
 }  // namespace trocar

@@ -99,11 +99,12 @@ TEST(FormatFive, IsWhatIsWrittenAndANewerOneIsRefused) {
 }
 
 TEST(FormatThree, IsReadAsBeforeKeyframes) {
-  std::string bytes = small_recording(1, 100, 1);
-  bytes[kRecordingMagic.size()] = 3;
-  const Recording read = parse_recording(bytes, "before");
+  const std::string now = small_recording(1, 100, 1);
+  const Recording read = parse_recording(unlinked(now, 3), "before");
   EXPECT_EQ(read.version, 3u);
-  EXPECT_EQ(read.signed_by, "") << "what says that it is older has no links";
+  std::string bytes = now;
+  bytes[kRecordingMagic.size()] = 4;
+  EXPECT_THROW(parse_recording(bytes, "told older"), InputError) << "links are of format 5";
 }
 
 TEST(FormatThree, AVersionThatItsChannelsContradictIsRefused) {
