@@ -54,7 +54,8 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
 }
 
 std::string override_form(const AttemptView& view, const Frame& frame) {
-  return std::string("<details") + (frame.refused.form == "override" ? " open=\"open\"" : "") +
+  return (view.recorded.empty() ? "" : "<p>" + escape_html(view.recorded) + "</p>") + "<details" +
+         (frame.refused.form == "override" ? " open=\"open\"" : "") +
          "><summary>Decide otherwise than the score</summary>" +
          form_begin("/attempt/" + url_part(view.result.uuid) + "/override", frame) +
          select_field("override-passed", "passed", "Your decision", {{"no", "not passed"}, {"yes", "passed"}},

@@ -227,7 +227,6 @@ std::string device_facts(const AttemptView& view) {
            "certificate.</p>";
   if (!view.result.integrity.empty())
     out += "<p class=\"warning\">" + shape("integrity") + escape_html(view.result.integrity) + "</p>";
-  if (!view.recorded.empty()) out += "<p>" + escape_html(view.recorded) + "</p>";
   std::string rows;
   for (const DeviceWarning& w : d.warnings)
     rows += "<tr><th scope=\"row\">" + escape_html(w.name) + "</th>" + number_cell(fixed_text(w.first_s, 2) + " s") +
