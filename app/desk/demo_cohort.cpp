@@ -24,7 +24,6 @@
 #include "trainees/progress/calendar.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/demo_record.h"
-#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {

@@ -8,6 +8,7 @@
 #include "trainees/files/owner_file.h"
 #include "trainees/files/size_text.h"
 #include "trainees/integrity/anchor_file.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -83,6 +84,7 @@ class Begun {
     std::error_code ignored;
     fs::remove_all(recordings_, ignored);
     fs::remove(anchor_path(copy_), ignored);
+    fs::remove(key_path(copy_), ignored);
     fs::remove(copy_, ignored);
   }
   Begun(const Begun&) = delete;

@@ -206,6 +206,7 @@ std::vector<std::string> Database::check() const {
 }
 
 void Database::backup(const fs::path& to) const {
+  if (fs::exists(key_path(to))) throw InputError(key_path(to).string() + ": exists already; a backup never overwrites");
   make_folder(fs::absolute(to));
   const auto anchor = read_anchor(file_);  // before the copy: what it holds is in the copy for certain
   copy_database(connection_.get(), to);
