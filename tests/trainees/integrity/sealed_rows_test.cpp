@@ -79,7 +79,7 @@ TEST_F(SealedRows, AnEditedRowOfAnyTableIsFound) {
     const std::string problems = problems_of(Database(copy));
     EXPECT_NE(problems.find(std::string("records: ") + table + " "), std::string::npos) << table << ": " << problems;
     EXPECT_NE(problems.find("was changed after it was written"), std::string::npos) << table << ": " << problems;
-    for (const char* more : {"", "-wal", "-shm", ".anchor"}) fs::remove(copy.string() + more);
+    for (const char* more : {"", "-wal", "-shm", ".anchor", ".key"}) fs::remove(copy.string() + more);
   }
 }
 
