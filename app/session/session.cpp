@@ -21,6 +21,7 @@
 #include "app/session/setup/true_plant.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
+#include "scenarios/director/event_peaks.h"
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
@@ -357,7 +358,7 @@ SessionOutcome replay_session(const Scene& scene, const Recording& recording, co
   return rig->outcome(backend.daq->capabilities().name);
 }
 
-Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {
+GradedRecording grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of) {
   const RecordedSetup recorded = parse_scene_json(recording.session, name);
   const Exercise& own = recorded.setup.exercise;
   const ExerciseLevel& judged = find_level(rubric_of ? *rubric_of : own, recorded.setup.level);
@@ -372,10 +373,12 @@ Grade grade_recording(const Recording& recording, const std::string& name, const
     context = scoring_context(own, level, Board{}, recording.events, AttemptStatus::kAborted);
   }
   const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-  Grade grade = score_attempt(trace, recording.events, rubric, context);
-  if (!grade.score || recording.run_report_json.empty()) return grade;
+  GradedRecording out{score_attempt(trace, recording.events, rubric, context), recording.events};
+  raise_to_peaks(out.events, trace, context);
+  if (!out.grade.score || recording.run_report_json.empty()) return out;
   const std::string fault = pacing_fault(parse_run_report(recording.run_report_json, name).realtime, recording.events);
-  return fault.empty() ? grade : void_grade(fault);
+  if (!fault.empty()) out.grade = void_grade(fault);
+  return out;
 }
 
 void fill_shares(const Recording& recording, RunReport& device) {

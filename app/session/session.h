@@ -104,9 +104,15 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup);
 /// The back-end that a setup names. @throws InputError when there is none of that name.
 Backend setup_backend(const AttemptSetup& setup);
 
+struct GradedRecording {
+  Grade grade = {};
+  std::vector<Event> events = {};  ///< those of force with their peaks (scenarios/director/event_peaks.h)
+};
+
 /// Grade of a recording by its own rubric, or by another exercise file's. The recording is enough: no organ, no device.
 /// @param rubric_of exercise whose rubric to use; nullptr: the one embedded in the recording.
-Grade grade_recording(const Recording& recording, const std::string& name, const Exercise* rubric_of = nullptr);
+GradedRecording grade_recording(const Recording& recording, const std::string& name,
+                                const Exercise* rubric_of = nullptr);
 
 /// Saturation and passivity shares, as the run report states them, from the decoded trace.
 void fill_shares(const Recording& recording, RunReport& device);

@@ -82,6 +82,13 @@ std::string base64(std::span<const unsigned char> bytes) {
 }
 
 std::string words_of(const std::string& identifier) {
+  std::string out = lower_words_of(identifier);
+  if (!out.empty() && static_cast<unsigned char>(out[0]) < 0x80)
+    out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  return out;
+}
+
+std::string lower_words_of(const std::string& identifier) {
   std::string out;
   for (const char c : identifier) {
     const auto byte = static_cast<unsigned char>(c);
@@ -90,8 +97,6 @@ std::string words_of(const std::string& identifier) {
     else
       out += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
   }
-  if (!out.empty() && static_cast<unsigned char>(out[0]) < 0x80)
-    out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   return out;
 }
 

@@ -31,5 +31,6 @@ std::string base64(std::span<const unsigned char> bytes);
 
 /// "TARGET_HELD" or "time_in_band" as words: "Target held", "Time in band".
 std::string words_of(const std::string& identifier);
+std::string lower_words_of(const std::string& identifier);  ///< "force max n"
 
 }  // namespace trocar

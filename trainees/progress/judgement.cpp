@@ -36,21 +36,21 @@ std::vector<const CurveAttempt*> newest(const Attempts& attempts, int window, Fi
   return out;
 }
 
-/// An attempt left after a critical event counts like a graded one: leaving hides nothing.
 Found unsafe(const Attempts& attempts, const ProgressRules& rules) {
-  const auto looked_at = newest(attempts, rules.unsafe_window,
-                                [](const CurveAttempt& a) { return !a.broken && (a.score || a.critical_events > 0); });
+  const auto looked_at = newest(attempts, rules.unsafe_window, looked_at_for_safety);
   int unsafe = 0, critical = 0, gates = 0;
   for (const CurveAttempt* a : looked_at) {
-    unsafe += a->critical_events > 0 || a->failed_gates > 0 ? 1 : 0;
+    unsafe += was_unsafe(*a) ? 1 : 0;
     critical += a->critical_events > 0 ? 1 : 0;
     gates += a->failed_gates > 0 ? 1 : 0;
   }
   if (unsafe < rules.unsafe_attempts) return std::nullopt;
   const int n = static_cast<int>(looked_at.size());
   return Judgement{Flag::kUnsafe,
-                   number(unsafe) + " of the last " + counted(n, "attempt was", "attempts were") + " unsafe: " +
-                       number(critical) + " with a critical event, " + number(gates) + " with a failed safety gate",
+                   number(unsafe) + " of the last " + counted(n, "attempt was", "attempts were") +
+                       " unsafe: " + (critical > 0 ? number(critical) + " with a critical event" : "") +
+                       (critical > 0 && gates > 0 ? ", " : "") +
+                       (gates > 0 ? number(gates) + " with a failed safety gate" : ""),
                    n, rules.version};
 }
 
@@ -189,16 +189,25 @@ const char* flag_name(Flag flag) {
       return "certified";
     case Flag::kLearning:
       return "learning";
+    case Flag::kNotStarted:
+      return "not started";
   }
   return "unknown";
 }
 
 std::optional<Flag> flag_named(const std::string& name) {
-  for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kPlateau,
-                          Flag::kIntegrity, Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kLearning})
+  for (const Flag flag :
+       {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kPlateau, Flag::kIntegrity,
+        Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kLearning, Flag::kNotStarted})
     if (name == flag_name(flag)) return flag;
   return std::nullopt;
 }
+
+bool looked_at_for_safety(const CurveAttempt& attempt) {
+  return !attempt.broken && (attempt.score || attempt.critical_events > 0);
+}
+
+bool was_unsafe(const CurveAttempt& attempt) { return attempt.critical_events > 0 || attempt.failed_gates > 0; }
 
 std::string reliability_words(double reliability) { return reliability > 0.99 ? "over 0.99" : fixed(reliability, 2); }
 

@@ -26,6 +26,7 @@ enum class Flag : std::uint8_t {
   kReady,         ///< LC-CUSUM shown, reliable enough, no flag of safety: ready for a person's decision
   kCertified,     ///< a certificate is held, and none of these
   kLearning,      ///< none of these, and no certificate
+  kNotStarted,    ///< registered, and no attempt yet; of a person, not of a curve: judge() does not give it
 };
 const char* flag_name(Flag flag);  ///< "unsafe", "relapsed", ...
 std::optional<Flag> flag_named(const std::string& name);
@@ -58,6 +59,12 @@ struct CurveAttempt {
   bool broken = false, doubtful = false;  ///< as above; a broken one counts for integrity alone
   bool decided = false;                   ///< passed or not by a person's decision
 };
+
+/// Whether the rule of safety looks at it: an attempt left after a critical event counts like a graded one, so that
+/// leaving hides nothing.
+bool looked_at_for_safety(const CurveAttempt& attempt);
+/// A critical event or a failed safety gate.
+bool was_unsafe(const CurveAttempt& attempt);
 
 /// Reliability of the mean of the newest scores: 1 - (variance of the mean) / (variance between trainees); see
 /// docs/progress_rules.md. Empty where either variance cannot be told. @param between_variance of true scores over the

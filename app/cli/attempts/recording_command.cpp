@@ -112,8 +112,9 @@ int score_command(const RecordingOptions& options, std::ostream& out, std::ostre
   std::optional<Exercise> other;
   if (!options.rubric.empty()) other = load_exercise(options.rubric);
   AttemptResult result = subject.stored.value_or(AttemptResult{});
-  result.grade = grade_recording(subject.recording, subject.file.string(), other ? &*other : nullptr);
-  result.events = subject.recording.events;
+  GradedRecording graded = grade_recording(subject.recording, subject.file.string(), other ? &*other : nullptr);
+  result.grade = std::move(graded.grade);
+  result.events = std::move(graded.events);
   result.recording_sha256 = subject.recording.sha256;
   result.recording_path = subject.file.string();
   result.device.stiffness = recorded_stiffness(subject.recording, subject.file.string());

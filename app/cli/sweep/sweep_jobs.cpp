@@ -187,7 +187,7 @@ bool run_job(SweepJob& job, const AssetRoots& assets, const std::function<bool()
   const auto stop = [&] { return stopped = stopped || interrupted(); };
   const auto [outcome, recording] = record_session(scene, assets, {}, {}, stop);
   if (stopped) return false;
-  job.row.grade = grade_recording(recording, "recording in memory");
+  job.row.grade = grade_recording(recording, "recording in memory").grade;
   job.row.fault = outcome.device.fault;
   return true;
 }

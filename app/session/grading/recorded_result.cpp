@@ -75,13 +75,14 @@ StiffnessReport recorded_stiffness(const Recording& recording, const std::string
 AttemptResult recorded_result(const Recording& recording, const std::filesystem::path& file) {
   const std::string name = file.empty() ? "recording" : file.string();
   AttemptResult result;
-  result.grade = grade_recording(recording, name);
+  GradedRecording graded = grade_recording(recording, name);
+  result.grade = std::move(graded.grade);
+  result.events = std::move(graded.events);
   if (result.grade.status == AttemptStatus::kVoid && !result.grade.caps.empty()) {
     result.integrity = cap_sentence(result.grade.caps.front());
   }
   if (recording.end && result.grade.status == AttemptStatus::kAborted)
     result.integrity = "ended before the exercise did";
-  result.events = recording.events;
   if (!recording.run_report_json.empty()) result.device = parse_run_report(recording.run_report_json, name);
   if (result.integrity.empty()) result.integrity = result.device.reason;
   fill_shares(recording, result.device);

@@ -95,8 +95,9 @@ void RecordedRun::State::load(const Recording& recording) {
   }
   scene.emplace(recorded_scene(recording, file, assets, organ));
   trace = loop_forces(recording);
-  events = recording.events;
-  grade = grade_recording(recording, file.string());
+  GradedRecording graded = grade_recording(recording, file.string());
+  events = std::move(graded.events);
+  grade = std::move(graded.grade);
   const auto run = std::find_if(recording.ticks.begin(), recording.ticks.end(), [](const RecordedTick& row) {
     return row.phase == static_cast<std::uint8_t>(Phase::kRun);
   });

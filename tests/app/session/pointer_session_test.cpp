@@ -127,7 +127,7 @@ TEST(PointerSession, WhatNeverBeginsIsVoidAndHasNoScore) {
   const auto [outcome, recording] = record_session(scene, find_assets(), hooks, {});
   EXPECT_EQ(outcome.status, AttemptStatus::kVoid);
   EXPECT_NE(outcome.device.reason.find("the clock never began"), std::string::npos) << outcome.device.reason;
-  EXPECT_FALSE(grade_recording(recording, "never begun").score);
+  EXPECT_FALSE(grade_recording(recording, "never begun").grade.score);
 }
 
 TEST(PointerSession, AScriptedHandIsRefused) {

@@ -61,7 +61,7 @@ TEST(SessionSafety, AnOpenDeadmanMidRunVoidsTheAttempt) {
   EXPECT_NE(outcome.device.reason.find("deadman"), std::string::npos);
   EXPECT_TRUE(outcome.device.fault.empty());
   EXPECT_EQ(outcome.events.back().type, "DEADMAN_OPEN");
-  const Grade grade = grade_recording(recording, "memory");
+  const Grade grade = grade_recording(recording, "memory").grade;
   EXPECT_EQ(grade.status, AttemptStatus::kVoid);
   EXPECT_FALSE(grade.score);
 }
@@ -69,7 +69,7 @@ TEST(SessionSafety, AnOpenDeadmanMidRunVoidsTheAttempt) {
 TEST(SessionSafety, AnOpenDeadmanBeforeTheClockCostsNothing) {
   const auto [outcome, recording] = run(scene_with({InjectedFaultKind::kDeadmanOpen, 1.5, 0.5, 0, 0}));
   EXPECT_EQ(outcome.status, AttemptStatus::kCompleted) << outcome.device.reason;
-  EXPECT_TRUE(grade_recording(recording, "memory").score);
+  EXPECT_TRUE(grade_recording(recording, "memory").grade.score);
   EXPECT_FALSE(outcome.safety_csv.empty()) << "the torque went off on the way";
 }
 

@@ -70,7 +70,7 @@ TEST(Session, ARunGradesAndReplaysToTheSameHash) {
   EXPECT_EQ(replayed.device.backend, "replay");
   EXPECT_EQ(replayed.events.size(), attempt.outcome.events.size());
 
-  const Grade grade = grade_recording(attempt.recording, "memory");
+  const Grade grade = grade_recording(attempt.recording, "memory").grade;
   ASSERT_TRUE(grade.score);
   EXPECT_GT(*grade.score, 60);
   EXPECT_EQ(grade.status, AttemptStatus::kCompleted);
@@ -93,7 +93,7 @@ TEST(Session, ALongOutageIsAFault) {
   const Attempt attempt = run(scene);
   EXPECT_EQ(attempt.outcome.status, AttemptStatus::kFault);
   EXPECT_EQ(attempt.outcome.device.fault, "late-loop");
-  EXPECT_FALSE(grade_recording(attempt.recording, "memory").score);
+  EXPECT_FALSE(grade_recording(attempt.recording, "memory").grade.score);
 }
 
 TEST(Session, AnObserverSeesTheRunAndDoesNotReachIt) {
@@ -112,7 +112,7 @@ TEST(Session, AnObserverSeesTheRunAndDoesNotReachIt) {
 TEST(Session, ARecordingWithoutItsEndIsGradedAsAborted) {
   Attempt attempt = run(short_scene("expert"));
   attempt.recording.end.reset();
-  const Grade grade = grade_recording(attempt.recording, "memory");
+  const Grade grade = grade_recording(attempt.recording, "memory").grade;
   EXPECT_EQ(grade.status, AttemptStatus::kAborted);
   EXPECT_FALSE(grade.score);
   EXPECT_FALSE(grade.passed);

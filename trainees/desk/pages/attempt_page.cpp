@@ -173,11 +173,12 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   frame.title = view.exercise + " " + view.result.level + ", " + view.result.trainee;
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
-                             subscore_table(view) + event_table(view) + compare_section(view, frame) + "</div><div>" +
-                             sign_off_section(view, frame) + notes_section(view.notes, note_action, frame) +
-                             "</div></div>" + rating_section(view, frame) + heat_section(view) + path_section(view) +
-                             film_section(view, frame) + metric_table(view) + "<div class=\"two\"><div>" +
-                             device_facts(view) + "</div><div>" + origin_facts(view) + "</div></div>");
+                             subscore_table(view) + notes_section(view.notes, note_action, frame) + "</div><div>" +
+                             sign_off_section(view, frame) + "</div></div>" + event_table(view) +
+                             compare_section(view, frame) + rating_section(view, frame) + heat_section(view) +
+                             path_section(view) + film_section(view, frame) + metric_table(view) +
+                             "<div class=\"two\"><div>" + device_facts(view) + "</div><div>" + origin_facts(view) +
+                             "</div></div>");
 }
 
 }  // namespace trocar::review

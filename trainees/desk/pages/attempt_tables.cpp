@@ -3,6 +3,7 @@
 
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/score_words.h"
 
 namespace trocar::review {
 namespace {
@@ -13,12 +14,6 @@ std::string share_text(double share) { return fixed_text(100 * share, 1) + " %";
 
 std::string quantity(const std::optional<double>& value, const std::string& unit) {
   return value && std::isfinite(*value) ? quantity_text(value, unit) : "undefined";
-}
-
-/// "full marks at 2 N, none at 6 N".
-std::string anchors(const Subscore& part) {
-  const auto value = [&](double v) { return quantity_text(v, part.unit); };
-  return "full at " + value(part.full_at) + ", none at " + value(part.zero_at);
 }
 
 std::string recorded(const std::string& name, const std::string& words, bool mono = false) {
@@ -92,10 +87,14 @@ std::string verdict_reason(const AttemptView& view) {
       return words_of(event.type) + " at " + fixed_text(event.t_s - view.begin_s(), 1) + " s" +
              (event.unit.empty() ? "" : ": " + quantity_text(event.value, event.unit)) + ".";
   const auto said = [](const Subscore& part) {
-    return words_of(part.name) + ": " + quantity(part.raw, part.unit) + " (" + anchors(part) + ")";
+    return words_of(part.name) + ": " + part_value_text(part, part.raw) + " (" + anchors_text(part) + ")";
   };
   const std::string beside = beside_words(view.result.events);
-  if (const Subscore* gate = failed_gate(grade)) return "Safety gate not met. " + said(*gate) + "." + beside;
+  if (const Subscore* gate = failed_gate(grade)) {
+    const auto cap =
+        std::find_if(grade.caps.begin(), grade.caps.end(), [&](const Cap& c) { return c.subject == gate->name; });
+    return "Safety gate not met: " + gate_text(*gate, cap->below) + "." + beside;
+  }
   const Subscore* unjudged = unjudged_gate(grade);
   const std::string unjudged_words =
       unjudged == nullptr ? ""
@@ -146,11 +145,17 @@ std::string verdict_band(const AttemptView& view) {
   return out + "</section>";
 }
 
-std::string event_table(const AttemptView& view) {
+namespace {
+
+/// Rows of the table of events, and how many they are. @param least severity; at most 200 rows.
+std::pair<std::string, std::size_t> event_rows(const AttemptView& view, Severity least) {
   constexpr std::size_t kShown = 200;
   std::string rows;
-  for (std::size_t i = 0; i < view.result.events.size() && i < kShown; ++i) {
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < view.result.events.size() && shown < kShown; ++i) {
     const Event& event = view.result.events[i];
+    if (event.severity < least) continue;
+    ++shown;
     const double t = event.t_s - view.begin_s();
     const bool grave = event.severity >= Severity::kMajor;
     rows += std::string("<tr") + (grave ? " class=\"grave\"" : "") + "><th scope=\"row\" class=\"n\">" +
@@ -160,12 +165,37 @@ std::string event_table(const AttemptView& view) {
             "</td>" + number_cell(event.unit.empty() ? "" : quantity(event.value, event.unit)) +
             number_cell(event.object < 0 ? "" : std::to_string(event.object + 1)) + "</tr>";
   }
-  if (rows.empty()) return section("events", "Events", "<p>None.</p>");
-  const std::size_t all = view.result.events.size();
-  return section("events", "Events",
-                 table(all > kShown ? "First " + std::to_string(kShown) + " of " + std::to_string(all) + " events"
-                                    : plural(static_cast<std::int64_t>(all), "event", "events"),
-                       head_cells({">No.", ">Time", "What", "How grave", ">Value", ">Object"}), rows));
+  return {rows, shown};
+}
+
+std::string event_list(const std::string& which, const std::pair<std::string, std::size_t>& rows, std::size_t all) {
+  const std::string caption =
+      rows.second < all ? "First " + std::to_string(rows.second) + " of " + std::to_string(all) + which
+                        : plural(static_cast<std::int64_t>(all), which.substr(1, which.size() - 2), which.substr(1));
+  return table(caption, head_cells({">No.", ">Time", "What", "How grave", ">Value", ">Object"}), rows.first);
+}
+
+}  // namespace
+
+std::string event_table(const AttemptView& view) {
+  const std::vector<Event>& events = view.result.events;
+  if (events.empty()) return section("events", "Events", "<p>None.</p>");
+  const auto of_least = [&events](Severity least) {
+    return static_cast<std::size_t>(
+        std::count_if(events.begin(), events.end(), [least](const Event& e) { return e.severity >= least; }));
+  };
+  const std::size_t grave = of_least(Severity::kMajor), slight = of_least(Severity::kMinor) - grave;
+  std::string out =
+      grave == 0
+          ? "<p>" + shape("pass") + "No major or critical event" +
+                (slight == 0 ? "" : ", " + plural(static_cast<std::int64_t>(slight), "minor one", "minor ones")) +
+                ".</p>"
+          : event_list(" grave events", event_rows(view, Severity::kMajor), grave);
+  if (grave < events.size())
+    out += "<details><summary>All " + plural(static_cast<std::int64_t>(events.size()), "event", "events") +
+           ", as they came</summary>" + event_list(" events", event_rows(view, Severity::kInfo), events.size()) +
+           "</details>";
+  return section("events", "Events", out);
 }
 
 std::string subscore_table(const AttemptView& view) {
@@ -176,8 +206,8 @@ std::string subscore_table(const AttemptView& view) {
     const double filled = 60 * std::clamp(part.value, 0.0, 1.0);
     rows += "<tr><th scope=\"row\">" + escape_html(words_of(part.name)) +
             (part.gate ? " <span class=\"tag\">safety gate</span>" : "") + "</th>" +
-            number_cell(quantity(part.raw, part.unit)) + "<td><small>" + escape_html(anchors(part)) + "</small></td>" +
-            number_cell(fixed_text(part.value, 2)) +
+            number_cell(part_value_text(part, part.raw)) + "<td><small>" + escape_html(anchors_text(part)) +
+            "</small></td>" + number_cell(fixed_text(part.value, 2)) +
             "<td><svg class=\"bar\" viewBox=\"0 0 60 10\" aria-hidden=\"true\"><rect width=\"60\" height=\"10\" "
             "fill=\"#dfe3e8\"/><rect "
             "width=\"" +
@@ -186,7 +216,7 @@ std::string subscore_table(const AttemptView& view) {
   }
   if (rows.empty()) return section("points", "Points", "<p>No score, so no points.</p>");
   std::string caps;
-  for (const Cap& cap : grade.caps) caps += "<li>" + escape_html(cap_sentence(cap)) + "</li>";
+  for (const Cap& cap : grade.caps) caps += "<li>" + escape_html(cap_text(grade, cap)) + "</li>";
   if (!caps.empty()) caps = "<p>The score is capped:</p><ul>" + caps + "</ul>";
   return section(
       "points", "Points",

@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "trainees/desk/pages/charts.h"
 #include "trainees/desk/pages/pages.h"
@@ -16,10 +17,11 @@ struct CardWords {
   Flag flag;
   const char *key, *title, *none;
 };
-constexpr std::array<CardWords, 4> kCards = {{{Flag::kUnsafe, "unsafe", "Unsafe", "Nobody"},
+constexpr std::array<CardWords, 5> kCards = {{{Flag::kUnsafe, "unsafe", "Unsafe", "Nobody"},
                                               {Flag::kRelapsed, "relapsed", "Relapsed", "Nobody"},
                                               {Flag::kStuck, "stuck", "Stuck", "Nobody"},
-                                              {Flag::kReady, "ready", "Ready", "Nobody yet"}}};
+                                              {Flag::kReady, "ready", "Ready", "Nobody yet"},
+                                              {Flag::kNotStarted, "not-started", "Not started", "Nobody"}}};
 
 bool holds(const CohortEntry& line, Flag flag) {
   return std::any_of(line.judgements.begin(), line.judgements.end(),
@@ -34,6 +36,7 @@ const Judgement* judgement_of(const CohortEntry& line, Flag flag) {
 }
 
 std::string curve_href(const CohortEntry& line) {
+  if (line.state() == Flag::kNotStarted) return "/trainee/" + url_part(line.code);
   return "/trainee/" + url_part(line.code) +
          query_html({{"exercise", line.exercise_id}, {"level", line.level}, {"hand", line.hand}});
 }
@@ -65,7 +68,7 @@ std::string card(const CohortView& view, const CardWords& words) {
     out += "<li>" + link_html(curve_href(*who[i]), shown_name(*who[i])) + " <span class=\"dim\">" +
            escape_html(who[i]->exercise) + " " + escape_html(who[i]->level) + "</span>" +
            (why == nullptr || why->evidence.empty() ? "" : "<br/><small>" + escape_html(why->evidence) + "</small>") +
-           (why == nullptr ? "" : "<br/>" + basis_html(*why)) + "</li>";
+           (why == nullptr || why->n == 0 ? "" : "<br/>" + basis_html(*why)) + "</li>";
   }
   out += "</ul>";
   const std::string all = with(view.asked, "state", words.key);
@@ -87,7 +90,7 @@ std::string filters(const CohortView& view) {
   const std::vector<Choice> states = {
       {"", "any state"},  {"unsafe", "unsafe"},          {"relapsed", "relapsed"}, {"in-question", "in question"},
       {"stuck", "stuck"}, {"integrity", "check record"}, {"plateau", "plateau"},   {"retention-due", "retention due"},
-      {"ready", "ready"}, {"certified", "certified"},    {"learning", "learning"}};
+      {"ready", "ready"}, {"certified", "certified"},    {"learning", "learning"}, {"not-started", "not started"}};
   return "<form class=\"filters\" method=\"get\" action=\"/\">" +
          select_field("f-group", "group", "Group", choices("all groups", view.groups), view.asked.group) +
          select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
@@ -136,14 +139,21 @@ std::string row(const CohortEntry& line) {
   return "<tr><th scope=\"row\">" + link_html(curve_href(line), shown_name(line)) +
          (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") + "</th><td>" +
          states + (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") +
-         (line.judgements.empty() ? "" : "<br/>" + basis_html(line.judgements.front())) + "</td><td>" +
-         escape_html(line.exercise) +
+         (line.judgements.empty() || line.judgements.front().n == 0 ? ""
+                                                                    : "<br/>" + basis_html(line.judgements.front())) +
+         "</td><td>" + escape_html(line.exercise) +
          (line.hand.empty() ? "" : " <small class=\"dim\">" + escape_html(line.hand) + "</small>") + "</td>" +
          cell(line.level) + number_cell(std::to_string(line.tries)) + number_cell(score_text(line.best)) +
          number_cell(score_text(line.last)) + "<td>" + spark_svg(line.scores, line.pass_at) + "</td>" +
          number_cell(line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93") + "<td class=\"n" +
          (line.over_force > 0 ? " bad" : "") + "\">" + std::to_string(line.over_force) + "</td><td>" +
          day_html(line.last_utc) + "</td></tr>";
+}
+
+/// By state, and of two who are unsafe by how bad it is.
+bool graver(const CohortEntry& a, const CohortEntry& b) {
+  if (a.state() != b.state()) return gravity(a.state()) < gravity(b.state());
+  return a.harm && b.harm && worse(*a.harm, *b.harm);
 }
 
 /// Less than, by a column; what has no number stands last either way.
@@ -171,7 +181,7 @@ std::function<bool(const CohortEntry&, const CohortEntry&)> order_of(const std::
   if (key == "force") return number([](const CohortEntry& l) { return l.peak_force_n; });
   if (key == "over") return number([](const CohortEntry& l) { return std::optional<double>(l.over_force); });
   return [down = sort == "-state"](const CohortEntry& a, const CohortEntry& b) {
-    return down ? gravity(a.state()) > gravity(b.state()) : gravity(a.state()) < gravity(b.state());
+    return down ? graver(b, a) : graver(a, b);
   };
 }
 
@@ -187,6 +197,17 @@ std::string page_links(const CohortQuestion& asked, int pages) {
                            : link_html(with(asked, "page", std::to_string(n)) + "#trainees", std::to_string(n));
   }
   return out + "</nav>";
+}
+
+/// Of what is shown: it follows every filter.
+std::string headline(const std::vector<CohortEntry>& lines) {
+  std::set<std::string> who;
+  int tries = 0;
+  for (const CohortEntry& line : lines) {
+    who.insert(line.code);
+    tries += line.tries;
+  }
+  return plural(static_cast<std::int64_t>(who.size()), "trainee", "trainees") + ", " + plural(tries, "try", "tries");
 }
 
 /// What to do at a desk that has nothing to show yet.
@@ -222,10 +243,15 @@ std::vector<const CohortEntry*> trainees_in_state(const CohortView& view, Flag f
   for (const CohortEntry& line : view.lines) {
     if (!holds(line, flag)) continue;
     const CohortEntry*& kept = by_code[line.code];
-    if (kept == nullptr || line.last_utc > kept->last_utc) kept = &line;
+    const bool both_harmful = kept != nullptr && kept->harm && line.harm;
+    if (kept == nullptr || (both_harmful ? worse(*line.harm, *kept->harm) : line.last_utc > kept->last_utc))
+      kept = &line;
   }
   std::vector<const CohortEntry*> out;
   for (const auto& [code, line] : by_code) out.push_back(line);
+  std::stable_sort(out.begin(), out.end(), [](const CohortEntry* a, const CohortEntry* b) {
+    return a->harm && b->harm && worse(*a->harm, *b->harm);
+  });
   return out;
 }
 
@@ -237,7 +263,7 @@ std::string cohort_page(const CohortView& view, Frame frame) {
   asked.page = std::clamp(asked.page, 1, pages);
   std::string out = "<div class=\"title\"><h1>" +
                     escape_html(asked.group.empty() ? "Cohort" : "Cohort " + asked.group) + "</h1><p class=\"dim\">" +
-                    plural(view.trainees, "trainee", "trainees") + ", " + plural(view.attempts, "attempt", "attempts") +
+                    headline(lines) +
                     (view.erased == 0 ? "" : ", " + std::to_string(view.erased) + " erased and left out") + ", rules " +
                     escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) +
                     "</p><p class=\"files\">" + link_html("/cohort.csv" + with(asked, "", ""), "CSV") +
@@ -245,13 +271,13 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                     "</p></div><div class=\"states\">";
   for (const CardWords& words : kCards) out += card(view, words);
   out += "</div>";
-  if (view.attempts == 0) out += beginning(frame);
+  if (!view.any_attempt) out += beginning(frame);
   std::string rows;
   for (int i = (asked.page - 1) * kLinesOnPage; i < count && i < asked.page * kLinesOnPage; ++i)
     rows += row(lines[static_cast<std::size_t>(i)]);
   if (rows.empty())
     rows = std::string("<tr><td colspan=\"11\">") +
-           (view.attempts == 0 ? "No attempts yet." : "Nobody matches. Choose less above.") + "</td></tr>";
+           (!view.any_attempt ? "No attempts yet." : "Nobody matches. Choose less above.") + "</td></tr>";
   out += section("trainees", "Trainees",
                  filters(view) +
                      table("Trainees, " + plural(count, "line", "lines") +

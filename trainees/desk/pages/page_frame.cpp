@@ -16,7 +16,7 @@ namespace {
 struct Shape {
   const char *name, *path;
 };
-constexpr std::array<Shape, 13> kShapes = {{
+constexpr std::array<Shape, 14> kShapes = {{
     {"unsafe", "M6 0.5 11.8 11.5H0.2Z"},
     {"relapsed", "M1 2h3v5h3V3.5L11.5 7 7 11.5V9H1Z"},
     {"in-question", "M6 0 12 6 6 12 0 6ZM5.2 2.8h1.6v4H5.2ZM5.2 7.8h1.6v1.6H5.2Z"},
@@ -27,6 +27,7 @@ constexpr std::array<Shape, 13> kShapes = {{
     {"ready", "M0.5 6.5 2.5 4.4 4.7 6.6 9.6 1.4 11.6 3.4 4.7 10.7Z"},
     {"certified", "M1 0h10v7L6 12 1 7ZM3 4.9 5.3 7.2 9.2 3.3 8.2 2.3 5.3 5.2 4 3.9Z"},
     {"learning", "M6 1a5 5 0 1 0 0.01 0ZM6 3a3 3 0 1 1-0.01 0Z"},
+    {"not-started", "M1 5h2.4v2H1ZM4.8 5h2.4v2H4.8ZM8.6 5H11v2H8.6Z"},
     {"pass", "M0.5 6.5 2.5 4.4 4.7 6.6 9.6 1.4 11.6 3.4 4.7 10.7Z"},
     {"fail", "M2.2 0.6 6 4.4 9.8 0.6 11.4 2.2 7.6 6 11.4 9.8 9.8 11.4 6 7.6 2.2 11.4 0.6 9.8 4.4 6 0.6 2.2Z"},
     {"void", "M6 0a6 6 0 1 0 0.01 0ZM2.5 5h7v2h-7Z"},
@@ -205,7 +206,7 @@ struct FlagWords {
   const char *key, *words;
 };
 /// Gravest first.
-constexpr std::array<FlagWords, 10> kFlags = {{{Flag::kUnsafe, "unsafe", "unsafe"},
+constexpr std::array<FlagWords, 11> kFlags = {{{Flag::kUnsafe, "unsafe", "unsafe"},
                                                {Flag::kRelapsed, "relapsed", "relapsed"},
                                                {Flag::kInQuestion, "in-question", "in question"},
                                                {Flag::kStuck, "stuck", "stuck"},
@@ -214,7 +215,8 @@ constexpr std::array<FlagWords, 10> kFlags = {{{Flag::kUnsafe, "unsafe", "unsafe
                                                {Flag::kRetentionDue, "retention-due", "retention due"},
                                                {Flag::kReady, "ready", "ready"},
                                                {Flag::kCertified, "certified", "certified"},
-                                               {Flag::kLearning, "learning", "learning"}}};
+                                               {Flag::kLearning, "learning", "learning"},
+                                               {Flag::kNotStarted, "not-started", "not started"}}};
 }  // namespace
 
 int gravity(Flag flag) {

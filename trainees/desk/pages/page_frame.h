@@ -66,7 +66,8 @@ std::string badge(Flag flag);
 std::string flag_words(Flag flag);           ///< "check record": as the badge says it
 std::string shape(const std::string& name);  ///< a small drawn shape: a flag's name, or pass, fail, void
 Flag state_named(const std::string& name, Flag otherwise);
-/// Gravest first: unsafe, relapsed, in question, stuck, integrity, plateau, retention due, ready, certified, learning.
+/// Gravest first: unsafe, relapsed, in question, stuck, integrity, plateau, retention due, ready, certified, learning,
+/// not started.
 int gravity(Flag flag);
 
 /// "22 Nov 2026, 13:05" in a <time>; text that is no date stays as it is.

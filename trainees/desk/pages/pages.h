@@ -35,7 +35,8 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
 
 /// Lines with the asked state, in the asked order; equal ones by code, exercise and level.
 std::vector<CohortEntry> selected_lines(const CohortView& view);
-/// Trainees in that state, each once with its gravest line's evidence. Order of the codes.
+/// Trainees in that state, each once, with their newest line of it; those unsafe with their worst, worst first, else in
+/// the order of the codes.
 std::vector<const CohortEntry*> trainees_in_state(const CohortView& view, Flag flag);
 inline constexpr int kLinesOnPage = 100;
 

@@ -123,6 +123,7 @@ struct Draft {
   CohortLine line = {};
   std::string in_question = {};  ///< of the certificate that is held
   std::vector<CurveAttempt> attempts = {};
+  std::vector<std::int64_t> rows = {};  ///< of the attempts
   std::vector<double> scores = {};
   double peak_sum = 0;
   int peaks = 0;
@@ -201,6 +202,7 @@ class CohortPass {
     draft.last_row = id;
     draft.line.over_force += facts.over_force;
     draft.attempts.push_back(attempt);
+    draft.rows.push_back(id);
     if (attempt.broken) return;
     ++draft.line.tries;
     draft.line.passes += attempt.passed ? 1 : 0;
@@ -247,11 +249,30 @@ class CohortPass {
     line.newest_scores = newest(kSparkScores);
     if (draft.scores.size() >= 3) line.reliability = reliability(newest(rules_.reliability_window), between);
     line.judgements = judge(draft.attempts, rules_, line.reliability, line.certified_utc, now_utc_, draft.in_question);
+    if (line.judgements.front().flag == Flag::kUnsafe) line.harm = harm_of(draft);
     newest_.bind(draft.last_row).step();
     line.last_uuid = newest_.text(0);
     line.exercise_version = newest_.text(1);
     line.last_utc = newest_.text(2);
     newest_.run();
+  }
+
+  Harm harm_of(const Draft& draft) const {
+    Harm out;
+    std::vector<std::int64_t> window;
+    for (std::size_t i = draft.attempts.size(); i-- > 0 && out.attempts_before < rules_.unsafe_window;) {
+      const CurveAttempt& attempt = draft.attempts[i];
+      if (!looked_at_for_safety(attempt)) continue;
+      const bool before = out.attempts >= rules_.unsafe_window;
+      ++(before ? out.attempts_before : out.attempts);
+      (before ? out.unsafe_before : out.unsafe) += was_unsafe(attempt) ? 1 : 0;
+      if (before) continue;
+      window.push_back(draft.rows[i]);
+      const double peak = facts_.get(draft.rows[i]).peak;
+      if (!std::isnan(peak)) out.peak_n = std::max(out.peak_n.value_or(peak), peak);
+    }
+    read_harm(connection_, window, out);
+    return out;
   }
 
   sqlite3* connection_;
@@ -278,7 +299,8 @@ std::vector<CohortLine> cohort_lines(Database& database, const ProgressRules& ru
 
 void sort_by_gravity(std::vector<CohortLine>& lines) {
   std::stable_sort(lines.begin(), lines.end(), [](const CohortLine& a, const CohortLine& b) {
-    return a.judgements.front().flag < b.judgements.front().flag;
+    const Flag left = a.judgements.front().flag, right = b.judgements.front().flag;
+    return left != right ? left < right : a.harm && b.harm && worse(*a.harm, *b.harm);
   });
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "trainees/desk/queries/harm.h"
 #include "trainees/progress/cohort_bands.h"
 #include "trainees/progress/cusum.h"
 #include "trainees/progress/judgement.h"
@@ -51,6 +52,7 @@ struct CohortLine {
   std::optional<double> reliability = {};  ///< of the mean of the newest scores
   std::string certified_utc = {};          ///< of the newest certificate that holds, "" without
   std::vector<Judgement> judgements = {};  ///< gravest first, at least one
+  std::optional<Harm> harm = {};           ///< of those judged unsafe; its limit is not read here
 };
 
 /// By trainee, exercise, level, input, without whose training data were erased. @param now_utc for what is due.

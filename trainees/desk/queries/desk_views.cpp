@@ -59,6 +59,31 @@ void add_due(TraineeView& view, const CurveDetail& detail, const std::string& ti
   }
 }
 
+/// People who are registered and have no attempt of what is asked for, after all others.
+void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, std::string>& titles) {
+  std::set<std::string> started;
+  for (const CohortEntry& line : view.lines) started.insert(line.code);
+  const std::set<std::int64_t> erased = desk::training_erased(desk.database.connection());
+  const auto title = titles.find(view.asked.exercise_id);
+  for (const auto& [id, person] : desk::people(desk.database.connection())) {
+    const bool wanted = view.asked.group.empty() ||
+                        std::find(person.groups.begin(), person.groups.end(), view.asked.group) != person.groups.end();
+    if (!wanted || erased.contains(id) || started.contains(person.code) || person.code.starts_with("erased-")) continue;
+    CohortEntry entry;
+    entry.code = person.code;
+    entry.name = person.name;
+    entry.exercise_id = view.asked.exercise_id;
+    entry.exercise = title == titles.end() ? view.asked.exercise_id : title->second;
+    entry.level = view.asked.level;
+    const bool narrowed = !entry.exercise_id.empty() || !entry.level.empty();
+    entry.judgements.push_back({Flag::kNotStarted,
+                                "registered " + person.created_utc.substr(0, 10) +
+                                    (narrowed ? "; no attempt of what is asked for" : "; no attempt yet"),
+                                0, view.rules_version});
+    view.lines.push_back(std::move(entry));
+  }
+}
+
 /// The first that the query fits. What is not there is said: a page about something else would mislead.
 std::size_t chosen_curve(const std::vector<CurveView>& curves, const Request& request) {
   const std::string exercise = argument(request.query, "exercise"), level = argument(request.query, "level"),
@@ -93,8 +118,15 @@ int whole_number(const std::string& text, int otherwise) {
 
 std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter,
                                  const std::string& now_utc) {
-  if (!desk.memory) return cohort_lines(desk.database, rules, filter, now_utc);
-  return filtered(desk.memory->lines(desk.database, now_utc), filter);
+  std::vector<CohortLine> lines = desk.memory ? filtered(desk.memory->lines(desk.database, now_utc), filter)
+                                              : cohort_lines(desk.database, rules, filter, now_utc);
+  LevelReader levels(desk);
+  for (CohortLine& line : lines) {
+    if (!line.harm) continue;
+    line.harm->limit_n = levels.of(line.key.rubric_sha256, line.key.level).limits.hard_n;
+    line.judgements.front().evidence = harm_sentence(*line.harm);
+  }
+  return lines;
 }
 
 bool is_staff(const Request& request) { return request.account && request.account->role != Role::kTrainee; }
@@ -151,10 +183,8 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   view.groups = CurriculumStore(desk.database).groups();
   view.exercises = exercise_choices(desk.database);
   view.levels = distinct_attempt_values(desk.database, "level");
-  view.attempts = static_cast<int>(sql::query_integer(
-      desk.database.connection(),
-      "SELECT (SELECT count(*) FROM attempt) - (SELECT count(*) FROM attempt WHERE status = 'running' OR trainee_id IN"
-      " (SELECT trainee_id FROM erasure WHERE kind = 'training'))"));
+  view.any_attempt =
+      sql::query_integer(desk.database.connection(), "SELECT EXISTS (SELECT 1 FROM attempt WHERE status <> 'running')");
   view.erased = static_cast<int>(desk::training_erased(desk.database.connection()).size());
   const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
   CohortFilter filter;
@@ -162,18 +192,30 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   filter.exercise = view.asked.exercise_id;
   filter.level = view.asked.level;
   LevelReader levels(desk);
-  std::string before;
   for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
-    if (line.trainee != before) ++view.trainees;
-    before = line.trainee;
     const auto title = titles.find(line.key.exercise_id);
-    view.lines.push_back({line.trainee, line.name, line.key.exercise_id,
-                          title == titles.end() ? line.key.exercise_id : title->second, line.key.level, line.key.hand,
-                          line.tries, line.best, line.last, std::move(line.newest_scores),
-                          levels.of(line.key.rubric_sha256, line.key.level).pass_at, line.mean_peak_n, line.over_force,
-                          std::move(line.judgements), line.last_utc, line.graded, line.passes, line.reliability,
-                          line.key.rubric_sha256});
+    view.lines.push_back({line.trainee,
+                          line.name,
+                          line.key.exercise_id,
+                          title == titles.end() ? line.key.exercise_id : title->second,
+                          line.key.level,
+                          line.key.hand,
+                          line.tries,
+                          line.best,
+                          line.last,
+                          std::move(line.newest_scores),
+                          levels.of(line.key.rubric_sha256, line.key.level).pass_at,
+                          line.mean_peak_n,
+                          line.over_force,
+                          std::move(line.judgements),
+                          line.last_utc,
+                          line.graded,
+                          line.passes,
+                          line.reliability,
+                          line.key.rubric_sha256,
+                          std::move(line.harm)});
   }
+  add_not_started(view, desk, titles);
   return view;
 }
 
@@ -187,8 +229,14 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   const std::vector<Choice> exercises = exercise_choices(desk.database);
   const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
   LevelReader levels(desk);
+  CohortFilter own;
+  own.trainee = picture.code;
+  const std::vector<CohortLine> lines = lines_of(desk, rules, own, request.now_utc);
   for (const CurveDetail& curve : picture.curves) {
     view.curves.push_back(curve_view(curve, titles, levels, rules));
+    const auto line = std::find_if(lines.begin(), lines.end(),
+                                   [&curve](const CohortLine& one) { return one.harm && one.key == curve.curve.key; });
+    if (line != lines.end()) view.curves.back().judgements.front().evidence = line->judgements.front().evidence;
     add_due(view, curve, view.curves.back().title);
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });

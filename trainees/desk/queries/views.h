@@ -13,6 +13,7 @@
 
 #include "scenarios/scoring/attempt_result.h"
 #include "trainees/desk/queries/film_state.h"
+#include "trainees/desk/queries/harm.h"
 #include "trainees/markup/board_plots.h"
 #include "trainees/markup/plots.h"
 #include "trainees/progress/judgement.h"
@@ -39,6 +40,7 @@ struct CohortEntry {
   int graded = 0, passes = 0;
   std::optional<double> reliability = {};
   std::string rubric_sha256 = {};
+  std::optional<Harm> harm = {};  ///< of those judged unsafe
   Flag state() const { return judgements.empty() ? Flag::kLearning : judgements.front().flag; }
 };
 
@@ -53,8 +55,8 @@ struct CohortView {
   std::vector<std::string> groups = {}, levels = {};
   std::vector<Choice> exercises = {};
   std::vector<CohortEntry> lines = {};  ///< of group, exercise and level; state and order are the page's work
-  int trainees = 0, attempts = 0;
-  int erased = 0;  ///< people whose training data were erased: in no line and no count
+  bool any_attempt = false;             ///< in the whole record
+  int erased = 0;                       ///< people whose training data were erased: in no line and no count
   std::string rules_version = {};
 };
 

@@ -7,6 +7,7 @@
 #include "trainees/desk/reports/report_words.h"
 #include "trainees/markup/board_plots.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/score_words.h"
 #include "trainees/markup/stiffness_plot.h"
 
 namespace trocar::review {
@@ -53,11 +54,9 @@ Table point_table(const AttemptView& view) {
               {},
               "No score, so no points."};
   for (const Subscore& part : view.result.grade.subscores)
-    table.rows.push_back(
-        {words_of(part.name) + (part.gate ? " (safety gate)" : ""), quantity(part.raw, part.unit),
-         "full at " + quantity_text(part.full_at, part.unit) + ", none at " + quantity_text(part.zero_at, part.unit),
-         fixed_text(part.value, 2), share(part.weight),
-         Cell(fixed_text(points_lost(part), 1), part.value < 0.5 ? Tone::kBad : Tone::kPlain)});
+    table.rows.push_back({words_of(part.name) + (part.gate ? " (safety gate)" : ""), part_value_text(part, part.raw),
+                          anchors_text(part), fixed_text(part.value, 2), share(part.weight),
+                          Cell(fixed_text(points_lost(part), 1), part.value < 0.5 ? Tone::kBad : Tone::kPlain)});
   return table;
 }
 
@@ -77,7 +76,7 @@ void add_advice(std::vector<Block>& out, const Grade& grade) {
   if (next == nullptr) return;
   out.emplace_back(
       Paragraph{"Try next: " + words_of(next->name) + (next->full_at < next->zero_at ? " down to " : " up to ") +
-                quantity_text(next->full_at, next->unit) + " (now " + quantity_text(next->raw, next->unit) + ")."});
+                part_value_text(*next, next->full_at) + " (now " + part_value_text(*next, next->raw) + ")."});
 }
 
 /// Errors of the pens, grip on the blocks: what says most of those exercises.
@@ -280,7 +279,7 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
   add_advice(out.blocks, view.result.grade);
   out.blocks.emplace_back(point_table(view));
   for (const Cap& cap : view.result.grade.caps)
-    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap_sentence(cap), Tone::kBad, true});
+    out.blocks.emplace_back(Paragraph{"The score is capped: " + cap_text(view.result.grade, cap), Tone::kBad, true});
   add_traces(out.blocks, view);
   add_stiffness(out.blocks, view);
   if (!report.picture_png.empty())

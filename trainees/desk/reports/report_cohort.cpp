@@ -30,7 +30,8 @@ std::string shown_name(const CohortEntry& line) { return line.name.empty() ? lin
 Skills skills_of(const std::vector<CohortEntry>& lines) {
   Skills out;
   for (const CohortEntry& line : lines)
-    out[{line.exercise, line.level, line.hand, line.rubric_sha256}].push_back(&line);
+    if (line.state() != Flag::kNotStarted)
+      out[{line.exercise, line.level, line.hand, line.rubric_sha256}].push_back(&line);
   return out;
 }
 
@@ -55,6 +56,7 @@ Block overview(const CohortReportView& view, const std::vector<CohortEntry>& lin
   int tries = 0, graded = 0, passes = 0;
   std::string last_seen;
   for (const CohortEntry& line : lines) {
+    if (line.state() == Flag::kNotStarted) continue;
     who.insert(line.code);
     tries += line.tries;
     graded += line.graded;
@@ -83,7 +85,7 @@ Table states(const CohortReportView& view) {
               {{"State", 1.5}, {"Trainees", 1, true}, {"Who", 8}},
               {}};
   for (const Flag flag : {Flag::kUnsafe, Flag::kRelapsed, Flag::kInQuestion, Flag::kStuck, Flag::kIntegrity,
-                          Flag::kPlateau, Flag::kRetentionDue, Flag::kReady, Flag::kCertified}) {
+                          Flag::kPlateau, Flag::kRetentionDue, Flag::kReady, Flag::kCertified, Flag::kNotStarted}) {
     const auto who = trainees_in_state(view.cohort, flag);
     std::string names;
     for (const CohortEntry* line : who) names += (names.empty() ? "" : ", ") + shown_name(*line);
@@ -116,14 +118,14 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
     std::string state = flag_words(line.state());
     for (std::size_t i = 1; i < line.judgements.size(); ++i) state += ", " + flag_words(line.judgements[i].flag);
     if (j != nullptr && !j->evidence.empty()) state += "\n" + j->evidence + " (n = " + std::to_string(j->n) + ")";
-    table.rows.push_back({shown_name(line) + (line.name.empty() ? "" : "\n" + line.code),
-                          curve_words(line.exercise, line.level, line.hand), Cell(state, tone_of(line.state())),
-                          std::to_string(line.passes) + " / " + std::to_string(line.tries), score_text(line.best),
-                          score_text(line.last), Cell::drawn(spark_svg(line.scores, line.pass_at)),
-                          line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93",
-                          Cell(std::to_string(line.over_force), line.over_force > 0 ? Tone::kBad : Tone::kPlain),
-                          line.reliability ? reliability_words(*line.reliability) : "\xE2\x80\x93",
-                          printed::day_text(line.last_utc)});
+    table.rows.push_back(
+        {shown_name(line) + (line.name.empty() ? "" : "\n" + line.code),
+         line.hand.empty() ? line.exercise : curve_words(line.exercise, line.level, line.hand),
+         Cell(state, tone_of(line.state())), std::to_string(line.passes) + " / " + std::to_string(line.tries),
+         score_text(line.best), score_text(line.last), Cell::drawn(spark_svg(line.scores, line.pass_at)),
+         line.peak_force_n ? fixed_text(*line.peak_force_n, 1) : "\xE2\x80\x93",
+         Cell(std::to_string(line.over_force), line.over_force > 0 ? Tone::kBad : Tone::kPlain),
+         line.reliability ? reliability_words(*line.reliability) : "\xE2\x80\x93", printed::day_text(line.last_utc)});
   }
   return table;
 }
@@ -236,8 +238,11 @@ printed::Report cohort_report(const CohortReportView& view, const ReportSetting&
   printed::Report out;
   out.kind = "Cohort report";
   out.title = view.cohort.asked.group.empty() ? "Cohort" : "Cohort " + view.cohort.asked.group;
-  out.subtitle = plural(view.cohort.trainees, "trainee", "trainees") + " with attempts, rules version " +
-                 view.cohort.rules_version;
+  std::set<std::string> tried;
+  for (const CohortEntry& line : view.cohort.lines)
+    if (line.state() != Flag::kNotStarted) tried.insert(line.code);
+  out.subtitle = plural(static_cast<std::int64_t>(tried.size()), "trainee", "trainees") +
+                 " with attempts, rules version " + view.cohort.rules_version;
   out.who = view.cohort.asked.group.empty() ? "all groups" : "group " + view.cohort.asked.group;
   for (const CohortEntry& line : view.cohort.lines) out.newest_utc = std::max(out.newest_utc, line.last_utc);
   for (const Certificate& c : view.certificates) out.newest_utc = std::max({out.newest_utc, c.utc, c.revoked_utc});

@@ -47,6 +47,7 @@ printed::Tone tone_of(Flag flag) {
     case Flag::kPlateau:
     case Flag::kRetentionDue:
     case Flag::kLearning:
+    case Flag::kNotStarted:
       break;
   }
   return printed::Tone::kPlain;

@@ -42,7 +42,7 @@ TEST(AttemptRunner, AScriptedHandRunsToItsGradeAndIsKeptAsTrocarRunKeepsIt) {
   EXPECT_EQ(stored.hand, "expert");
   EXPECT_EQ(stored.trainee, "T-1");
   EXPECT_TRUE(verified(result.recording_path));
-  EXPECT_EQ(grade_recording(read_recording(result.recording_path), "regraded").score, result.grade.score);
+  EXPECT_EQ(grade_recording(read_recording(result.recording_path), "regraded").grade.score, result.grade.score);
 }
 
 TEST(AttemptRunner, APersonsIntentsMoveTheInstrumentAndTheInputIsStoredAsTheHand) {

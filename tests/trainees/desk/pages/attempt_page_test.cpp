@@ -33,7 +33,8 @@ TEST(AttemptPage, VerdictComesFirstWithItsOneReason) {
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   const auto band = page.all("section", "verdict");
   ASSERT_EQ(band.size(), 1U);
-  EXPECT_EQ(band[0]->text, "Not yetSafety gate not met. In band: 0.58 (full at 1, none at 0.3).58.0 of 100below pass");
+  EXPECT_EQ(band[0]->text,
+            "Not yetSafety gate not met: in band 58 %, the gate asks 65 % or more.58.0 of 100below pass");
   EXPECT_EQ(&page.elements[0] < band[0], true);
   EXPECT_LT(band[0], page.by_id("moment"));
 }
@@ -43,16 +44,16 @@ TEST(Verdict, ReasonsInTheirOrder) {
   view.result.events.push_back({41, "TISSUE_TORN", Severity::kCritical, -1, 6.1, "N", Vec3::Zero()});
   EXPECT_EQ(verdict_reason(view), "Tissue torn at 41.0 s: 6.1 N.");
   view.result.events.pop_back();
-  EXPECT_EQ(verdict_reason(view), "Safety gate not met. In band: 0.58 (full at 1, none at 0.3).");
+  EXPECT_EQ(verdict_reason(view), "Safety gate not met: in band 58 %, the gate asks 65 % or more.");
   view.result.grade.caps = {{.kind = CapKind::kUnfinished, .done = 7, .total = 12, .at_most = 28.6}};
   view.result.grade.status = AttemptStatus::kTimeout;
   EXPECT_EQ(verdict_reason(view), "Time ran out, not finished: 7 of 12: at most 28.6.");
   view.result.grade.caps.clear();
   view.result.grade.status = AttemptStatus::kCompleted;
   EXPECT_EQ(verdict_reason(view),
-            "Score 58.0, pass 75. Most points went on In band: 0.58 (full at 1, none at 0.3), 21.0 lost.");
+            "Score 58.0, pass 75. Most points went on In band: 58 % (full at 100 %, none at 30 %), 21.0 lost.");
   view.result.grade.passed = true;
-  EXPECT_EQ(verdict_reason(view), "Most points went on In band: 0.58 (full at 1, none at 0.3), 21.0 lost.");
+  EXPECT_EQ(verdict_reason(view), "Most points went on In band: 58 % (full at 100 %, none at 30 %), 21.0 lost.");
   for (Subscore& part : view.result.grade.subscores) part.value = 1;
   EXPECT_EQ(verdict_reason(view), "Nothing lost.");
   view.result.grade.score.reset();
@@ -89,8 +90,9 @@ TEST(AttemptPage, PointsLostAreTheWeightedRest) {
   EXPECT_DOUBLE_EQ(points_lost({"a", 0.4, 0.35, {}, "", 1, 0, true}), 21);
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   const std::string text = page.by_id("points")->text;
-  for (const char* part : {"In band safety gate0.58full at 1, none at 0.30.4035.0 %21.0",
-                           "Time36 sfull at 30 s, none at 90 s0.9040.0 %4.0", "safety: in_band below 0.5: at most 59"})
+  for (const char* part : {"In band safety gate58 %full at 100 %, none at 30 %0.4035.0 %21.0",
+                           "Time36 sfull at 30 s, none at 90 s0.9040.0 %4.0",
+                           "safety gate: in band 58 %, the gate asks 65 % or more: at most 59"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 

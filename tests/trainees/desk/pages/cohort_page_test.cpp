@@ -75,6 +75,37 @@ TEST(CohortPage, GravestFirstUnlessAskedOtherwise) {
   EXPECT_EQ(codes(selected_lines(view)).front(), "dubois");
 }
 
+TEST(CohortPage, TheWorstOfTheUnsafeStandsFirstInCardAndTable) {
+  CohortView view = sample_cohort();
+  Harm mild, bad;
+  mild.peak_n = 2.2;
+  bad.peak_n = 6;
+  mild.limit_n = bad.limit_n = 2;
+  for (CohortEntry& line : view.lines)
+    if (line.state() == Flag::kUnsafe) line.harm = line.code == "gupta" ? bad : mild;
+  EXPECT_EQ(codes(selected_lines(view)).front(), "gupta");
+  EXPECT_EQ(trainees_in_state(view, Flag::kUnsafe).front()->code, "gupta");
+  view.asked.sort = "-state";
+  EXPECT_EQ(codes(selected_lines(view)).back(), "gupta");
+}
+
+TEST(CohortPage, WhoHasNotStartedIsCountedAndListedAndTheHeadlineFollowsTheFilters) {
+  CohortView view = sample_cohort();
+  CohortEntry idle;
+  idle.code = "ivo";
+  idle.judgements = {judged(Flag::kNotStarted, "registered 2026-03-01; no attempt yet", 0)};
+  view.lines.push_back(idle);
+  const auto title = [&view] { return check_page(cohort_page(view, sample_frame())).all("div", "title")[0]->text; };
+  const CheckedPage page = check_page(cohort_page(view, sample_frame()));
+  EXPECT_EQ(page.problems, std::vector<std::string>{});
+  EXPECT_EQ(count_of(page, "not-started"), "1");
+  EXPECT_EQ(codes(selected_lines(view)).back(), "ivo");
+  EXPECT_NE(title().find("9 trainees, 71 tries"), std::string::npos) << title();
+  view.asked.state = "not-started";
+  EXPECT_EQ(codes(selected_lines(view)), (std::vector<std::string>{"ivo"}));
+  EXPECT_NE(title().find("1 trainee, 0 tries"), std::string::npos) << title();
+}
+
 TEST(CohortPage, LinesWithoutANumberStandLastInBothDirections) {
   CohortView view;
   view.lines = {sample_line("none", {}, {}), sample_line("low", {10}, {}), sample_line("high", {90}, {})};
@@ -135,7 +166,7 @@ TEST(CohortPage, TenThousandLinesAreShownInParts) {
     view.lines.push_back(sample_line("t" + std::to_string(10000 + i), {50, 60, 70}, {}));
     if (i < 7000) view.lines.back().judgements = {judged(Flag::kUnsafe, "too strong")};
   }
-  view.attempts = 30000;
+  view.any_attempt = true;
   view.asked.page = 3;
   const std::string html = cohort_page(view, sample_frame());
   EXPECT_LT(html.size(), 200000U);

@@ -41,8 +41,7 @@ CohortView sample_cohort() {
   view.groups = {"2026 A", "2026 B"};
   view.levels = {"L1", "L2", "L3"};
   view.exercises = {{"surface-touch", "Surface touch"}, {"limited-grasp", "Limited grasp"}};
-  view.trainees = 8;
-  view.attempts = 101;
+  view.any_attempt = true;
   view.rules_version = "1";
   const auto add = [&](const std::string& code, const std::vector<double>& scores, double peak_n, int over,
                        const std::vector<Judgement>& why) {

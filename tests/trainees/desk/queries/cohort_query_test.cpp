@@ -158,13 +158,16 @@ TEST(CohortLines, ALineIsTheSameWhoeverElseIsAskedFor) {
   }
 }
 
-TEST(CohortLines, GravestFirstKeepsTheOrderWithin) {
+TEST(CohortLines, GravestFirstAndOfTheUnsafeTheWorstElseTheOrderIsKept) {
   auto lines = cohort_lines(small(), {}, {}, kNow);
   sort_by_gravity(lines);
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const auto before = lines[k - 1].judgements.front().flag, here = lines[k].judgements.front().flag;
     EXPECT_LE(before, here);
-    EXPECT_TRUE(before != here || lines[k - 1].trainee <= lines[k].trainee);
+    if (before == Flag::kUnsafe && here == before)
+      EXPECT_FALSE(worse(*lines[k].harm, *lines[k - 1].harm));
+    else
+      EXPECT_TRUE(before != here || lines[k - 1].trainee <= lines[k].trainee);
   }
 }
 
