@@ -12,7 +12,8 @@ namespace trocar::review {
 
 /// The one reason of a verdict, in the order of the trainee's debrief: critical event, failed gate that cost most,
 /// undone, score; of a pass the part on which most points went. "" for nothing to say.
-std::string verdict_reason(const AttemptView& view);
+/// @param times the moment of a critical event; not where the recording's beginning is not known.
+std::string verdict_reason(const AttemptView& view, bool times = true);
 /// 100 w (1 - s).
 double points_lost(const Subscore& part);
 /// Whether a smaller value of that metric is the better one by the attempt's rubric; empty when the rubric does not use

@@ -79,12 +79,12 @@ std::string metric_title(const std::string& name) {
   return words_of(name);
 }
 
-std::string verdict_reason(const AttemptView& view) {
+std::string verdict_reason(const AttemptView& view, bool times) {
   const Grade& grade = view.result.grade;
   if (!graded(view.result)) return view.result.integrity.empty() ? "It carries no score." : view.result.integrity;
   for (const Event& event : view.result.events)
     if (event.severity == Severity::kCritical)
-      return words_of(event.type) + " at " + fixed_text(event.t_s - view.begin_s(), 1) + " s" +
+      return words_of(event.type) + (times ? " at " + fixed_text(event.t_s - view.begin_s(), 1) + " s" : "") +
              (event.unit.empty() ? "" : ": " + quantity_text(event.value, event.unit)) + ".";
   const auto said = [](const Subscore& part) {
     return words_of(part.name) + ": " + part_value_text(part, part.raw) + " (" + anchors_text(part) + ")";

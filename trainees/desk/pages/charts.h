@@ -18,6 +18,9 @@ inline constexpr std::size_t kPointsDrawn = 200;  ///< newest attempts that a cu
 /// Score by attempt: own points (filled: passed, hollow: not, cross: without a score; a diamond round what a person
 /// decided), cohort quartiles shaded, pass mark, benchmark.
 std::string curve_svg(const CurveView& curve);
+/// A measure by attempt: own points as curve_svg() draws them, cohort quartiles shaded. @param points of the curve, of
+/// which MetricCurve::values are the heights; empty for a cohort alone.
+std::string metric_svg(const MetricCurve& metric, const std::vector<CurvePoint>& points);
 /// Both sequential tests by attempt with their limits.
 std::string cusum_svg(const CurveView& curve);
 /// Minutes trained a week as bars; the newest 26 weeks.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "trainees/desk/pages/charts.h"
 #include "trainees/desk/pages/page_frame.h"
@@ -32,15 +33,15 @@ std::string polyline(const std::string& points, const std::string& style) {
 struct Axes {
   double width = 720, height = 300, left = 44, right = 622, top = 14, bottom = 252;
   int first = 1, last = 1;
-  double high = 100;
+  double low = 0, high = 100;
   double x(double number) const {
     return last == first ? 0.5 * (left + right) : left + (right - left) * (number - first) / (last - first);
   }
-  double y(double value) const { return bottom - (bottom - top) * std::clamp(value / high, 0.0, 1.0); }
+  double y(double value) const { return bottom - (bottom - top) * std::clamp((value - low) / (high - low), 0.0, 1.0); }
 
   std::string grid(double step, const std::string& words) const {
     std::string out;
-    for (double v = 0; v <= high * 1.0001; v += step)
+    for (double v = low; v <= high + 1e-4 * step; v += step)
       out += line(left, y(v), right, y(v), "stroke=\"#d9dee4\"") + label(left - 8, y(v) + 5, number_text(v), "end");
     const int stride = std::max(1, static_cast<int>(std::lround(svg::nice_step(std::max(1, last - first), 9))));
     for (int n = first; n <= last; n += stride) out += label(x(n), bottom + 20, std::to_string(n), "middle");
@@ -72,9 +73,9 @@ class RightLabels {
   std::vector<Item> all_;
 };
 
-std::string cohort_area(const CurveView& curve, const Axes& axes) {
+std::string cohort_area(const std::vector<CohortBand>& cohort, const Axes& axes) {
   std::string upper, lower, middle;
-  for (const CohortBand& band : curve.cohort) {
+  for (const CohortBand& band : cohort) {
     if (band.attempt < axes.first || band.attempt > axes.last) continue;
     const std::string at = px(axes.x(band.attempt)) + ",";
     upper += at + px(axes.y(band.quartiles.high)) + " ";
@@ -94,10 +95,12 @@ std::string decided_mark(const CurvePoint& point, double x, double y) {
          "Z\" fill=\"none\" stroke-width=\"2\" stroke=\"" + (point.passed ? "#b04a00" : "#1d2630") + "\"/>";
 }
 
-std::string own_point(const CurvePoint& point, double x, double y, int number) {
+/// @param value of what is drawn; nothing: a cross.
+std::string own_point(const CurvePoint& point, const std::optional<double>& value, const std::string& value_words,
+                      double x, double y, int number) {
   const std::string at = attribute("cx", px(x)) + attribute("cy", px(y));
   std::string mark;
-  if (!point.score)
+  if (!value)
     mark = "<path d=\"M" + px(x - 4) + " " + px(y - 4) + "L" + px(x + 4) + " " + px(y + 4) + "M" + px(x - 4) + " " +
            px(y + 4) + "L" + px(x + 4) + " " + px(y - 4) + "\" stroke=\"#5b6570\" stroke-width=\"2.4\"/>";
   else
@@ -106,23 +109,26 @@ std::string own_point(const CurvePoint& point, double x, double y, int number) {
   if (!point.decided_by.empty()) mark += decided_mark(point, x, y);
   const std::string by = point.decided_by.empty() ? "" : " by decision of " + point.decided_by;
   const std::string words = "attempt " + std::to_string(number) + ", " + point.utc.substr(0, 10) + ": " +
-                            (point.score ? score_text(point.score) + (point.passed ? ", passed" : ", not passed") + by
-                                         : point.status + ", no score" +
-                                               (by.empty()     ? ""
-                                                : point.passed ? ", passed" + by
-                                                               : ", not passed" + by)) +
+                            (value ? value_words + (point.passed ? ", passed" : ", not passed") + by
+                                   : point.status + ", no score" +
+                                         (by.empty()     ? ""
+                                          : point.passed ? ", passed" + by
+                                                         : ", not passed" + by)) +
                             (point.number > 0 ? ", no. " + std::to_string(point.number) : "");
   return "<a href=\"/attempt/" + url_part(point.uuid) + "\"><title>" + escape_html(words) + "</title>" + mark + "</a>";
 }
 
-std::string own_points(const CurveView& curve, std::size_t begin, const Axes& axes) {
+/// @param value of the i-th point, and its words.
+template <class Value, class Words>
+std::string own_points(const std::vector<CurvePoint>& points, std::size_t begin, const Axes& axes, Value value,
+                       Words words) {
   std::string line_points, marks;
-  for (std::size_t i = begin; i < curve.points.size(); ++i) {
-    const CurvePoint& point = curve.points[i];
+  for (std::size_t i = begin; i < points.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
-    const double y = axes.y(point.score.value_or(0));
-    if (point.score) line_points += px(axes.x(number)) + "," + px(y) + " ";
-    marks += own_point(point, axes.x(number), y, number);
+    const std::optional<double> at = value(i);
+    const double y = axes.y(at.value_or(axes.low));
+    if (at) line_points += px(axes.x(number)) + "," + px(y) + " ";
+    marks += own_point(points[i], at, at ? words(*at) : "", axes.x(number), y, number);
   }
   return polyline(line_points, std::string("stroke=\"") + kBlue + "\" stroke-width=\"2\"") + marks;
 }
@@ -162,7 +168,7 @@ std::string curve_svg(const CurveView& curve) {
   axes.last = std::max(axes.first, static_cast<int>(curve.points.size()));
   RightLabels words;
   std::string out = open(axes.width, axes.height, "Score by attempt", "chart", "group") + axes.grid(20, "attempt") +
-                    cohort_area(curve, axes);
+                    cohort_area(curve.cohort, axes);
   out += line(axes.left, axes.y(curve.pass_at), axes.right, axes.y(curve.pass_at), kPassLine);
   words.add(axes.y(curve.pass_at) + 5, "pass " + number_text(curve.pass_at), "#9c4100");
   if (curve.benchmark) {
@@ -171,8 +177,53 @@ std::string curve_svg(const CurveView& curve) {
                 "stroke=\"#00785a\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"");
     words.add(y + 5, "bench " + number_text(curve.benchmark->full_at), "#00593f");
   }
-  out += own_points(curve, begin, axes);
+  out += own_points(
+      curve.points, begin, axes, [&curve](std::size_t i) { return curve.points[i].score; },
+      [](double score) { return score_text(score); });
   return out + words.draw(axes.right + 8, 16) + "</svg>";
+}
+
+std::string metric_svg(const MetricCurve& metric, const std::vector<CurvePoint>& points) {
+  const std::size_t begin = points.size() > kPointsDrawn ? points.size() - kPointsDrawn : 0;
+  Axes axes;
+  axes.left = 66;
+  axes.right = 712;
+  axes.first = static_cast<int>(begin) + 1;
+  axes.last = std::max(axes.first, static_cast<int>(points.empty() ? metric.cohort.size() : points.size()));
+  double low = 0, high = 0;
+  const auto reach = [&low, &high](double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (std::size_t i = begin; i < metric.values.size(); ++i)
+    if (metric.values[i]) reach(*metric.values[i]);
+  for (const CohortBand& band : metric.cohort) {
+    if (band.attempt < axes.first || band.attempt > axes.last) continue;
+    reach(band.quartiles.low);
+    reach(band.quartiles.high);
+  }
+  const double largest = std::max({-low, high, 1e-9});
+  auto [shown, shown_unit] = readable_unit(largest, metric.unit);
+  if (metric.name.ends_with("_share")) std::tie(shown, shown_unit) = std::pair(100 * largest, std::string("%"));
+  const double factor = shown / largest;
+  const double step = svg::nice_step(std::max((high - low) * factor, 1e-6), 5);
+  axes.low = step * std::floor(low * factor / step);
+  axes.high = std::max(axes.low + step, step * std::ceil(high * factor / step));
+  std::vector<CohortBand> bands = metric.cohort;
+  for (CohortBand& band : bands)
+    for (double* value : {&band.quartiles.low, &band.quartiles.median, &band.quartiles.high}) *value *= factor;
+  std::string out = open(axes.width, axes.height, words_of(metric.name) + " by attempt", "measure", "group") +
+                    axes.grid(step, "attempt") + cohort_area(bands, axes);
+  if (!shown_unit.empty()) out += label(6, 14, shown_unit);
+  return out +
+         own_points(
+             points, begin, axes,
+             [&, factor](std::size_t i) {
+               return i < metric.values.size() && metric.values[i] ? std::optional(*metric.values[i] * factor)
+                                                                   : std::nullopt;
+             },
+             [unit = shown_unit](double value) { return number_text(value) + (unit.empty() ? "" : " " + unit); }) +
+         "</svg>";
 }
 
 std::string cusum_svg(const CurveView& curve) {

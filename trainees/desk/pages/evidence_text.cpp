@@ -10,11 +10,11 @@ namespace {
 
 using nlohmann::json;
 
-std::string words_of(const json& value) {
+std::string json_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-std::string text_of(const json& of, const char* key) { return of.contains(key) ? words_of(of[key]) : std::string(); }
+std::string text_of(const json& of, const char* key) { return of.contains(key) ? json_text(of[key]) : std::string(); }
 
 /// "1 decision: passed by Dr Ines Okafor on 2026-03-01 (the stand slipped)".
 std::string decisions_text(const json& list) {
@@ -44,9 +44,9 @@ std::string evidence_text(const std::string& text) {
     } else if (key == "reliability" && (value.is_null() || value.is_number())) {
       add("reliability " + reliability_text(value.is_number() ? std::optional(value.get<double>()) : std::nullopt));
     } else if (key == "decided" && value.is_number()) {
-      add(words_of(value) + " by decision");
+      add(json_text(value) + " by decision");
     } else {
-      add(key + " " + words_of(value));
+      add(key + " " + json_text(value));
     }
   }
   return out;

@@ -16,6 +16,8 @@ namespace trocar::review {
 
 std::string cohort_page(const CohortView& view, Frame frame);
 std::string trainee_page(const TraineeView& view, Frame frame);
+/// Why attempts fail: lost points, gates, critical events, and a measure over the attempts, of what is asked for.
+std::string why_page(const WhyView& view, Frame frame);
 std::string attempt_page(const AttemptView& view, Frame frame);
 std::string compare_page(const CompareView& view, Frame frame);
 std::string curriculum_page(const CurriculumView& view, Frame frame);
@@ -32,6 +34,18 @@ std::string message_page(const std::string& title, const std::string& words, Fra
 /// Part of the attempt page: what a person adds (sign-off, override, certificate, note). Not for trainees.
 std::string sign_off_section(const AttemptView& view, const Frame& frame);
 std::string notes_section(const std::vector<Note>& notes, const std::string& action, const Frame& frame);
+
+/// A line of a trainee's list: an attempt of the chosen curve with its place there, or one that the device ended.
+struct ListedAttempt {
+  const CurvePoint* point = nullptr;
+  int place = 0;  ///< 0: in no curve
+};
+/// The part of that list that the page shows, newest first.
+struct AttemptsPage {
+  std::vector<ListedAttempt> shown = {};
+  int page = 1, pages = 1, first = 1, all = 0;
+};
+AttemptsPage attempts_page(const TraineeView& view);
 
 /// Lines with the asked state, in the asked order; equal ones by code, exercise and level.
 std::vector<CohortEntry> selected_lines(const CohortView& view);

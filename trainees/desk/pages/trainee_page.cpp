@@ -3,6 +3,7 @@
 #include <map>
 
 #include "trainees/desk/pages/charts.h"
+#include "trainees/desk/pages/loss_parts.h"
 #include "trainees/desk/pages/pages.h"
 #include "trainees/markup/html.h"
 
@@ -115,25 +116,6 @@ std::string cusum_caption(const CurveView& curve) {
          " passes in a row.";
 }
 
-/// A line of the list: an attempt of the curve with its place there, or one that the device ended.
-struct ListedAttempt {
-  const CurvePoint* point = nullptr;
-  int place = 0;  ///< 0: in no curve
-};
-
-/// Newest first.
-std::vector<ListedAttempt> listed(const TraineeView& view) {
-  const CurveView& curve = view.curves[view.chosen];
-  std::vector<ListedAttempt> out;
-  for (std::size_t i = 0; i < curve.points.size(); ++i) out.push_back({&curve.points[i], static_cast<int>(i) + 1});
-  for (const EndedAttempt& ended : view.ended_by_device)
-    if (ended.key == curve.key) out.push_back({&ended.point, 0});
-  std::reverse(out.begin(), out.end());
-  std::stable_sort(out.begin(), out.end(),
-                   [](const ListedAttempt& a, const ListedAttempt& b) { return a.point->utc > b.point->utc; });
-  return out;
-}
-
 std::string result_cell(const ListedAttempt& one) {
   const CurvePoint& p = *one.point;
   if (one.place == 0) return shape("void") + "ended by the device: not counted, passes in a row begin anew";
@@ -163,28 +145,29 @@ std::string attempts_pages(const CurveView& curve, int page, int pages) {
 }
 
 std::string attempts_table(const TraineeView& view) {
-  constexpr int kShown = 12;
-  const std::vector<ListedAttempt> all = listed(view);
-  const int count = static_cast<int>(all.size()), pages = std::max(1, (count + kShown - 1) / kShown),
-            page = std::clamp(view.page, 1, pages);
+  const AttemptsPage part = attempts_page(view);
   std::string rows;
-  for (int k = (page - 1) * kShown; k < count && k < page * kShown; ++k) {
-    const ListedAttempt& one = all[static_cast<std::size_t>(k)];
+  const auto reason_of = [&view](const CurvePoint& point) {
+    const auto at = view.reasons.find(point.uuid);
+    return at == view.reasons.end() ? std::string() : "<small>" + escape_html(at->second) + "</small>";
+  };
+  for (const ListedAttempt& one : part.shown) {
     const CurvePoint& p = *one.point;
     const std::string number = p.number > 0 ? std::to_string(p.number) : "";
     rows += "<tr><th scope=\"row\"><a href=\"/attempt/" + url_part(p.uuid) + "\">" +
             (number.empty() ? "Attempt" : "No. " + number) + "</a></th>" +
             number_cell(one.place > 0 ? std::to_string(one.place) : "\xE2\x80\x93") + "<td>" + date_html(p.utc) +
             "</td>" + cell(words_of(p.status)) + number_cell(score_text(p.score)) + "<td>" + result_cell(one) +
-            "</td></tr>";
+            "</td><td class=\"why\">" + reason_of(p) + "</td></tr>";
   }
   if (rows.empty()) return "";
-  const std::string caption = pages == 1 ? "Attempts, newest first"
-                                         : "Attempts " + std::to_string((page - 1) * kShown + 1) + " to " +
-                                               std::to_string(std::min(count, page * kShown)) + " of " +
-                                               std::to_string(count) + ", newest first";
-  return table(caption, head_cells({"Attempt", ">Try", "When", "Ended", ">Score", "Result"}), rows) +
-         attempts_pages(view.curves[view.chosen], page, pages);
+  const std::string caption = part.pages == 1
+                                  ? "Attempts, newest first"
+                                  : "Attempts " + std::to_string(part.first) + " to " +
+                                        std::to_string(part.first + static_cast<int>(part.shown.size()) - 1) + " of " +
+                                        std::to_string(part.all) + ", newest first";
+  return table(caption, head_cells({"Attempt", ">Try", "When", "Ended", ">Score", "Result", "Why"}), rows) +
+         attempts_pages(view.curves[view.chosen], part.page, part.pages);
 }
 
 /// Over all exercises, so that trainees who met different ones can be compared.
@@ -279,6 +262,27 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
   return section("notes", "Notes", out + "</ol>");
 }
 
+AttemptsPage attempts_page(const TraineeView& view) {
+  constexpr int kShown = 12;
+  AttemptsPage out;
+  if (view.chosen >= view.curves.size()) return out;
+  const CurveView& curve = view.curves[view.chosen];
+  std::vector<ListedAttempt> all;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) all.push_back({&curve.points[i], static_cast<int>(i) + 1});
+  for (const EndedAttempt& ended : view.ended_by_device)
+    if (ended.key == curve.key) all.push_back({&ended.point, 0});
+  std::reverse(all.begin(), all.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const ListedAttempt& a, const ListedAttempt& b) { return a.point->utc > b.point->utc; });
+  out.all = static_cast<int>(all.size());
+  out.pages = std::max(1, (out.all + kShown - 1) / kShown);
+  out.page = std::clamp(view.page, 1, out.pages);
+  out.first = (out.page - 1) * kShown + 1;
+  for (int k = out.first - 1; k < out.all && k < out.page * kShown; ++k)
+    out.shown.push_back(all[static_cast<std::size_t>(k)]);
+  return out;
+}
+
 std::string trainee_page(const TraineeView& view, Frame frame) {
   frame.title = view.name.empty() ? view.code : view.name;
   std::string out = title(view, frame) + section("exercises", "Exercises", view.erased ? kErased : grid(view));
@@ -290,9 +294,19 @@ std::string trainee_page(const TraineeView& view, Frame frame) {
                    judgements(curve) + facts(curve) + "<div class=\"two\"><div>" +
                        figure(curve_svg(curve), curve_caption(curve)) + "</div><div>" +
                        figure(cusum_svg(curve), escape_html(cusum_caption(curve))) + "</div></div>");
+    if (!view.metric.choices.empty())
+      out += section("measure", "Measures",
+                     metric_form("/trainee/" + url_part(view.code) + "#measure",
+                                 {{"exercise", curve.key.exercise_id},
+                                  {"level", curve.key.level},
+                                  {"hand", curve.key.hand},
+                                  {"rubric", curve.key.rubric_sha256.substr(0, 12)}},
+                                 view.metric.choices, view.metric.name) +
+                         metric_figure(view.metric, curve.points));
   }
-  out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame);
+  if (!view.losses.empty()) out += section("why", "Where the points go", loss_tables(view.losses));
   if (view.chosen < view.curves.size()) out += section("attempts", "Attempts", attempts_table(view));
+  out += "<div class=\"two\"><div>" + notes_section(view.notes, "/trainee/" + url_part(view.code) + "/note", frame);
   out += "</div><div>";
   out += section("ability", "Ability", ability(view)) +
          section("time", "Time trained",

@@ -247,6 +247,8 @@ class CohortPass {
           draft.scores.end());
     };
     line.newest_scores = newest(kSparkScores);
+    for (std::size_t i = draft.rows.size(); i-- > 0 && line.newest_rows.size() < kRowsForLosses;)
+      if (!draft.attempts[i].broken) line.newest_rows.push_back(draft.rows[i]);
     if (draft.scores.size() >= 3) line.reliability = reliability(newest(rules_.reliability_window), between);
     line.judgements = judge(draft.attempts, rules_, line.reliability, line.certified_utc, now_utc_, draft.in_question);
     if (line.judgements.front().flag == Flag::kUnsafe) line.harm = harm_of(draft);

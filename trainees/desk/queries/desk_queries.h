@@ -33,7 +33,7 @@ struct CohortFilter {
   std::optional<Flag> flag = {};  ///< lines with that judgement among theirs
 };
 
-inline constexpr int kSparkScores = 20;
+inline constexpr int kSparkScores = 20, kRowsForLosses = 5;
 
 /// One trainee at one exercise, level, input and rubric.
 struct CohortLine {
@@ -49,10 +49,11 @@ struct CohortLine {
   int over_force = 0;                          ///< times that contact or grip went above its hard limit
   std::string last_utc = {};                   ///< start of the newest attempt
   std::string last_uuid = {};
-  std::optional<double> reliability = {};  ///< of the mean of the newest scores
-  std::string certified_utc = {};          ///< of the newest certificate that holds, "" without
-  std::vector<Judgement> judgements = {};  ///< gravest first, at least one
-  std::optional<Harm> harm = {};           ///< of those judged unsafe; its limit is not read here
+  std::optional<double> reliability = {};      ///< of the mean of the newest scores
+  std::string certified_utc = {};              ///< of the newest certificate that holds, "" without
+  std::vector<Judgement> judgements = {};      ///< gravest first, at least one
+  std::vector<std::int64_t> newest_rows = {};  ///< attempts that were tried, newest first, at most kRowsForLosses
+  std::optional<Harm> harm = {};               ///< of those judged unsafe; its limit is not read here
 };
 
 /// By trainee, exercise, level, input, without whose training data were erased. @param now_utc for what is due.

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "haptics/input_error.h"
+#include "trainees/desk/pages/attempt_parts.h"
+#include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/level_reader.h"
@@ -82,6 +84,49 @@ void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, s
                                 0, view.rules_version});
     view.lines.push_back(std::move(entry));
   }
+}
+
+/// The largest contact force where none is asked for, or what there is.
+std::string measure_of(const std::vector<std::string>& choices, const std::string& asked) {
+  for (const std::string& name : {asked, std::string("force_max_n"), std::string("time_s")})
+    if (std::find(choices.begin(), choices.end(), name) != choices.end()) return name;
+  return choices.empty() ? "" : choices.front();
+}
+
+MetricCurve cohort_metric(Desk& desk, const CurveKey& key, const std::string& name) {
+  MetricCurve out;
+  out.name = name;
+  if (desk.sources.metric_words) out.words = desk.sources.metric_words(name);
+  MetricCohort cohort = metric_cohort(desk.database, key, name);
+  out.unit = std::move(cohort.unit);
+  for (const CohortPoint& point : cohort.points) out.cohort.push_back({point.attempt, point.people, point.scores});
+  return out;
+}
+
+MetricCurve own_metric(Desk& desk, const LearningCurve& curve, const std::string& asked) {
+  std::set<std::string> names;
+  for (const PastAttempt& attempt : curve.attempts)
+    for (const auto& [name, value] : attempt.metrics) names.insert(name);
+  const std::vector<std::string> choices(names.begin(), names.end());
+  if (choices.empty()) return {};
+  MetricCurve out = cohort_metric(desk, curve.key, measure_of(choices, asked));
+  out.choices = choices;
+  for (const PastAttempt& attempt : curve.attempts) {
+    const auto at = attempt.metrics.find(out.name);
+    out.values.push_back(at == attempt.metrics.end() ? std::nullopt : std::optional(at->second));
+  }
+  return out;
+}
+
+std::vector<LossLine> loss_lines(Desk& desk, const std::vector<CohortLine>& lines,
+                                 const std::map<std::string, std::string>& titles) {
+  std::vector<LossLine> out;
+  for (Losses& losses : losses_of(desk.database, lines)) {
+    const auto title = titles.find(losses.key.exercise_id);
+    const std::string words = title == titles.end() ? losses.key.exercise_id : title->second;
+    out.push_back({words, std::move(losses), {}});
+  }
+  return out;
 }
 
 /// The first that the query fits. What is not there is said: a page about something else would mislead.
@@ -219,6 +264,33 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   return view;
 }
 
+WhyView why_view(Desk& desk, const Request& request) {
+  WhyView view;
+  view.asked.group = argument(request.query, "group");
+  view.asked.exercise_id = argument(request.query, "exercise");
+  view.asked.level = argument(request.query, "level");
+  view.groups = CurriculumStore(desk.database).groups();
+  view.exercises = exercise_choices(desk.database);
+  view.levels = distinct_attempt_values(desk.database, "level");
+  const std::map<std::string, std::string> titles(view.exercises.begin(), view.exercises.end());
+  CohortFilter filter;
+  filter.group = view.asked.group;
+  filter.exercise = view.asked.exercise_id;
+  filter.level = view.asked.level;
+  const std::vector<CohortLine> lines = lines_of(desk, rules_in_force(desk.database), filter, request.now_utc);
+  view.lines = loss_lines(desk, lines, titles);
+  if (view.asked.exercise_id.empty()) return view;
+  std::set<std::string> names;
+  std::set<CurveKey> read;
+  for (const CohortLine& line : lines)
+    if (!line.newest_rows.empty() && read.insert(line.key).second)
+      for (const std::string& name : metrics_of_attempt(desk.database, line.newest_rows.front())) names.insert(name);
+  view.metrics.assign(names.begin(), names.end());
+  view.metric = measure_of(view.metrics, argument(request.query, "metric"));
+  for (LossLine& line : view.lines) line.metric = cohort_metric(desk, line.losses.key, view.metric);
+  return view;
+}
+
 TraineeView trainee_view(Desk& desk, const Request& request) {
   const ProgressRules rules = rules_in_force(desk.database);
   TraineeDetail picture = trainee_detail(desk.database, argument(request.arguments, "code"), rules, request.now_utc);
@@ -242,6 +314,9 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
   view.chosen = chosen_curve(view.curves, request);
   view.page = whole_number(argument(request.query, "page"), 1);
+  if (view.chosen < view.curves.size())
+    view.metric = own_metric(desk, picture.curves[view.chosen].curve, argument(request.query, "metric"));
+  if (!picture.training_erased) view.losses = loss_lines(desk, lines, titles);
   for (const PastAttempt& attempt : picture.ended_by_device) {
     const AttemptSummary& s = attempt.summary;
     view.ended_by_device.push_back({{s.exercise_id, s.level, s.hand, s.rubric_sha256}, point_of(s)});
@@ -254,6 +329,13 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   view.shaken = shaken_certificates(desk.database, view.certificates);
   view.rules_version = rules.version;
   view.created_utc = picture.created_utc;
+  const AttemptStore store(desk.database);
+  for (const ListedAttempt& one : attempts_page(view).shown) {
+    AttemptView attempt;
+    attempt.result = store.load(store.find(one.point->uuid).row);
+    attempt.pass_at = view.curves[view.chosen].pass_at;
+    view.reasons[one.point->uuid] = verdict_reason(attempt, false);
+  }
   return view;
 }
 

@@ -25,6 +25,7 @@ std::string argument(const std::map<std::string, std::string>& values, const std
                      const std::string& otherwise = "");
 
 CohortView cohort_view(Desk& desk, const Request& request);
+WhyView why_view(Desk& desk, const Request& request);
 /// @throws InputError: no such trainee; the query names an exercise, level, input or rubric of which there is no curve.
 TraineeView trainee_view(Desk& desk, const Request& request);
 /// @throws InputError: no such attempt, or still running.

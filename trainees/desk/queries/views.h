@@ -13,7 +13,7 @@
 
 #include "scenarios/scoring/attempt_result.h"
 #include "trainees/desk/queries/film_state.h"
-#include "trainees/desk/queries/harm.h"
+#include "trainees/desk/queries/losses.h"
 #include "trainees/markup/board_plots.h"
 #include "trainees/markup/plots.h"
 #include "trainees/progress/judgement.h"
@@ -75,6 +75,22 @@ struct CohortBand {
   Quartiles quartiles = {};
 };
 
+/// A measure by attempt, of one person or of a cohort alone.
+struct MetricCurve {
+  std::string name = {}, unit = {};
+  std::string words = {};                          ///< what it is, "" where nobody says
+  std::vector<std::optional<double>> values = {};  ///< by point of the curve; empty: the cohort alone
+  std::vector<CohortBand> cohort = {};
+  std::vector<std::string> choices = {};  ///< measures that could be asked for
+};
+
+/// Why attempts fail at one exercise, level, input and rubric.
+struct LossLine {
+  std::string title = {};
+  Losses losses = {};
+  MetricCurve metric = {};  ///< of the cohort; drawn where it has points
+};
+
 struct CurveView {
   CurveKey key = {};
   std::string title = {};
@@ -122,14 +138,26 @@ struct DueDate {
 /// Certificates that are in question (trainees/records/certificate_standing.h): by number, why.
 using ShakenCertificates = std::map<std::string, std::string>;
 
+/// What is asked of "Why": group, exercise, level, and a measure to draw.
+struct WhyView {
+  CohortQuestion asked = {};
+  std::string metric = {};
+  std::vector<std::string> groups = {}, levels = {}, metrics = {};
+  std::vector<Choice> exercises = {};
+  std::vector<LossLine> lines = {};
+};
+
 struct TraineeView {
   ShakenCertificates shaken = {};
   std::string code = {}, name = {};
   std::vector<std::string> groups = {};
   std::vector<CurveView> curves = {};
-  std::size_t chosen = 0;                          ///< curve that is drawn
-  std::vector<EndedAttempt> ended_by_device = {};  ///< oldest first
-  int page = 1;                                    ///< of the list of attempts
+  std::size_t chosen = 0;                           ///< curve that is drawn
+  std::vector<EndedAttempt> ended_by_device = {};   ///< oldest first
+  int page = 1;                                     ///< of the list of attempts
+  std::map<std::string, std::string> reasons = {};  ///< why, by attempt of that page
+  MetricCurve metric = {};                          ///< of the chosen curve
+  std::vector<LossLine> losses = {};
   AbilityView ability = {};
   std::vector<std::pair<std::string, double>> minutes_by_week =
       {};                        ///< Monday's date, minutes; oldest first, no week left out

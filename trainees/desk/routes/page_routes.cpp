@@ -125,6 +125,9 @@ std::vector<Route> page_routes() {
   out.push_back(page_route("/", Audience::kInstructors, [](const Request& r, Desk& d) {
     return html_answer(cohort_page(cohort_view(d, r), frame_of(r, d)));
   }));
+  out.push_back(page_route("/why", Audience::kInstructors, [](const Request& r, Desk& d) {
+    return html_answer(why_page(why_view(d, r), frame_of(r, d)));
+  }));
   out.push_back(page_route("/cohort.csv", Audience::kInstructors, [](const Request& r, Desk& d) {
     return file(cohort_csv(cohort_view(d, r)), "cohort.csv");
   }));

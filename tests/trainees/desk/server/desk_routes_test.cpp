@@ -114,6 +114,33 @@ TEST_F(DeskRoutes, WhoIsRegisteredAndHasNotTriedWhatIsAskedForIsShown) {
   EXPECT_NE(ask("GET", "/cohort.csv", {{"state", "not-started"}}).body.find("IDLE"), std::string::npos);
 }
 
+TEST_F(DeskRoutes, WhyAttemptsFailFollowsTheFilterAndDrawsTheMeasureThatIsAsked) {
+  for (const char* who : {"X", "Y", "Z"}) store_attempt(database_, sample_start(who), sample_result(80));
+  const CheckedPage all = page("/why");
+  EXPECT_EQ(all.problems, std::vector<std::string>{});
+  EXPECT_FALSE(all.all("table").empty());
+  EXPECT_TRUE(all.all("svg", "measure").empty()) << "which exercise?";
+  const CheckedPage one = page("/why", {{"exercise", "surface-touch"}, {"metric", "time_s"}});
+  EXPECT_EQ(one.problems, std::vector<std::string>{});
+  ASSERT_FALSE(one.all("svg", "measure").empty());
+  EXPECT_EQ(one.all("svg", "measure")[0]->of("aria-label"), "Time s by attempt");
+  EXPECT_LT(one.all("table").size(), all.all("table").size());
+  EXPECT_TRUE(page("/why", {{"group", "' OR 1=1 --"}}).all("table").empty());
+  EXPECT_EQ(page("/why", {{"exercise", "surface-touch"}, {"metric", "<script>"}}).problems, std::vector<std::string>{});
+}
+
+TEST_F(DeskRoutes, ATraineesPageSaysWhyAndDrawsAnyMeasure) {
+  const CheckedPage own = page("/trainee/" + trainee_, {{"metric", "time_s"}});
+  EXPECT_EQ(own.problems, std::vector<std::string>{});
+  EXPECT_EQ(own.all("svg", "measure").at(0)->of("aria-label"), "Time s by attempt");
+  EXPECT_FALSE(own.by_id("why")->text.empty());
+  const auto reasons = own.all("td", "why");
+  ASSERT_FALSE(reasons.empty());
+  EXPECT_TRUE(std::any_of(reasons.begin(), reasons.end(), [](const PageElement* cell) {
+    return cell->text.find("points went on") != std::string::npos || cell->text.find("gate") != std::string::npos;
+  })) << reasons[0]->text;
+}
+
 TEST_F(DeskRoutes, AttemptLooksAtTheAskedMoment) {
   EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "12.5"}}).by_id("t")->of("value"), "12.5");
   EXPECT_EQ(page("/attempt/" + attempt_, {{"t", "1e99"}}).by_id("t")->of("value"), "60.0");
