@@ -193,6 +193,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   };
   if (keeper) served.sources.central = [&] { return keeper->status(); };
   served.sources.stations = [file] { return look_at_stations(file); };
+  served.sources.station_picture = [file](const std::string& name) { return look_at_picture(file, name); };
   if (pictures) add_pictures(served.sources, *pictures);
   const auto films = desk_films(file, served.sources.no_film);
   if (films) add_films(served.sources, *films);

@@ -144,6 +144,14 @@ void page_cohort_of_a_group_new(benchmark::State& state) {
 }
 BENCHMARK(page_cohort_of_a_group_new)->Unit(benchmark::kMillisecond);
 
+void page_why_new(benchmark::State& state) { page(state, "/why", as_instructor(), true); }
+BENCHMARK(page_why_new)->Unit(benchmark::kMillisecond);
+
+void page_why_of_an_exercise_new(benchmark::State& state) {
+  page(state, "/why", as_instructor({}, {{"exercise", "surface-touch"}, {"level", "L2"}}), true);
+}
+BENCHMARK(page_why_of_an_exercise_new)->Unit(benchmark::kMillisecond);
+
 void page_trainee_new(benchmark::State& state) {
   page(state, "/trainee/{code}", as_instructor({{"code", "P042"}}), true);
 }

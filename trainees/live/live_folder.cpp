@@ -13,7 +13,6 @@ namespace trocar {
 namespace {
 
 constexpr const char* kLooked = "looked";
-constexpr const char* kEnding = ".json";
 constexpr mode_t kOwnerFile = 0600, kOwnerFolder = 0700, kOthers = 0077;
 
 bool own(const struct stat& of) { return of.st_uid == ::geteuid() && (of.st_mode & kOthers) == 0; }
@@ -38,6 +37,10 @@ bool write_all(int file, const std::string& text) {
 }
 
 }  // namespace
+
+std::string LiveFolder::picture_of(const std::string& moment_name) {
+  return moment_name.substr(0, moment_name.rfind('.')) + kPicture;
+}
 
 std::filesystem::path LiveFolder::beside(const std::filesystem::path& database) {
   return database.parent_path() / (database.stem().string() + ".live");
@@ -107,7 +110,7 @@ std::vector<std::string> LiveFolder::names() const {
   }
   while (const dirent* entry = ::readdir(entries)) {
     const std::string name = entry->d_name;
-    if (name.ends_with(kEnding)) out.push_back(name);
+    if (name.ends_with(kMoment)) out.push_back(name);
   }
   ::closedir(entries);
   std::sort(out.begin(), out.end());

@@ -15,7 +15,10 @@ namespace trocar {
 
 class LiveFolder {
  public:
-  static constexpr std::size_t kLargest = 64 * 1024;  ///< bytes of a file that is read
+  static constexpr std::size_t kLargest = 64 * 1024;                   ///< bytes of a file that is read
+  static constexpr const char *kMoment = ".json", *kPicture = ".jpg";  ///< how the names of a program's two files end
+  /// Name of the picture that goes with a moment's name.
+  static std::string picture_of(const std::string& moment_name);
 
   enum class Open : std::uint8_t { kExisting, kMake };
   /// @param database its file; empty (in memory): there is no folder.

@@ -38,6 +38,11 @@ int count_of(const json& from, const char* key) {
   return static_cast<int>(std::clamp<std::int64_t>(whole_of(from, key), 0, kMost));
 }
 
+bool flag_of(const json& from, const char* key) {
+  const auto it = from.find(key);
+  return it != from.end() && it->is_boolean() && it->get<bool>();
+}
+
 json of_moment(const LiveMoment& m) {
   json events = json::array();
   for (const LiveEvent& event : m.events)
@@ -63,6 +68,7 @@ json of_moment(const LiveMoment& m) {
           {"rate_hz", number(m.rate_hz)},
           {"missed", number(m.missed)},
           {"at_limit", m.at_limit},
+          {"hears", m.hears},
           {"events", events}};
 }
 
@@ -72,9 +78,7 @@ std::vector<LiveEvent> events_of(const json& from) {
   if (it == from.end() || !it->is_array()) return out;
   for (const json& event : *it) {
     if (!event.is_object() || out.size() == kLiveEvents) continue;
-    const auto grave = event.find("grave");
-    out.push_back({number_of(event, "t_s").value_or(0), text_of(event, "what"),
-                   grave != event.end() && grave->is_boolean() && grave->get<bool>()});
+    out.push_back({number_of(event, "t_s").value_or(0), text_of(event, "what"), flag_of(event, "grave")});
   }
   return out;
 }
@@ -101,8 +105,8 @@ LiveMoment moment_of(const json& from) {
   m.device_state = text_of(from, "device_state");
   m.rate_hz = number_of(from, "rate_hz");
   m.missed = number_of(from, "missed");
-  const auto limit = from.find("at_limit");
-  m.at_limit = limit != from.end() && limit->is_boolean() && limit->get<bool>();
+  m.at_limit = flag_of(from, "at_limit");
+  m.hears = flag_of(from, "hears");
   m.events = events_of(from);
   return m;
 }

@@ -33,6 +33,7 @@ struct LiveMoment {
   std::optional<double> rate_hz = {};  ///< measured
   std::optional<double> missed = {};   ///< periods of the loop
   bool at_limit = false;               ///< the device gives less force than was asked
+  bool hears = false;                  ///< shows what a desk writes
   std::vector<LiveEvent> events = {};  ///< newest last, at most kLiveEvents
   bool operator==(const LiveMoment&) const = default;
 };

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "trainees/live/live_moment.h"
 
@@ -15,6 +17,7 @@ namespace trocar {
 class LivePublisher {
  public:
   static constexpr double kLookedFor_s = 10;  ///< a desk that asked so long ago still looks
+  static constexpr double kPictureEvery_s = 0.3;
   static constexpr double kLeftFor_s = 7200;  ///< after which the file of a program that died is taken away
 
   /// @param database its file; empty or ":memory:": nothing is told.
@@ -28,6 +31,10 @@ class LivePublisher {
   bool wanted() const;
   /// News is written even when nobody looks; the rest waits until somebody does.
   void tell(const LiveMoment& moment);
+  /// A desk looks, and the last picture is kPictureEvery_s old: a new one is welcome. False once it has been asked for.
+  bool picture_wanted();
+  /// @param jpeg makes the file's bytes; called by the publisher's thread, at most LiveFolder::kLargest bytes.
+  void show(std::function<std::string()> jpeg);
 
  private:
   struct State;

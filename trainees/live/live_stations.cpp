@@ -11,7 +11,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kSilence_s = 3;  ///< longer than any program needs to answer a look
+constexpr double kPictureOld_s = 5;  ///< from here on it is not of this moment
+constexpr double kSilence_s = 3;     ///< longer than any program needs to answer a look
 
 using State = LiveStation::State;
 
@@ -60,6 +61,9 @@ LiveStations look_at_stations(const std::filesystem::path& database) {
     }
     LiveStation station = judged(std::move(*told), here, look_s, age_s);
     if (station.state == State::kEnded && station.age_s > LivePublisher::kLeftFor_s) continue;
+    const std::string picture = LiveFolder::picture_of(name);
+    if (station.state == State::kRunning && folder.age_s(picture).value_or(kPictureOld_s) < kPictureOld_s)
+      station.picture = picture;
     out.stations.push_back(std::move(station));
   }
   folder.look();
@@ -67,6 +71,16 @@ LiveStations look_at_stations(const std::filesystem::path& database) {
     return std::tuple(a.state, a.told.moment.trainee, a.told.process.pid) <
            std::tuple(b.state, b.told.moment.trainee, b.told.process.pid);
   });
+  return out;
+}
+
+std::optional<std::string> look_at_picture(const std::filesystem::path& database, const std::string& name) {
+  const bool plain = name.find_first_not_of("0123456789abcdef-.jpg") == std::string::npos;
+  if (!plain || !name.ends_with(LiveFolder::kPicture)) return {};
+  LiveFolder folder(database, LiveFolder::Open::kExisting);
+  std::optional<std::string> out = folder.read(name);
+  if (out && !out->starts_with("\xFF\xD8")) return {};  // no JPEG: a browser need not guess what it is
+  folder.look();
   return out;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct LiveStation {
   enum class State : std::uint8_t { kRunning, kQuiet, kEnded };
   StatusSnapshot told = {};
   State state = State::kRunning;
-  double age_s = 0;  ///< of what it said
+  double age_s = 0;          ///< of what it said
+  std::string picture = {};  ///< name of its picture; "" where there is none of this moment
 };
 
 struct LiveStations {
@@ -28,5 +30,7 @@ struct LiveStations {
 
 /// Programs write only while somebody looks: this tells them so. @param database its file.
 LiveStations look_at_stations(const std::filesystem::path& database);
+/// JPEG of a station's picture; nothing where there is none of that name, or it is not to be trusted.
+std::optional<std::string> look_at_picture(const std::filesystem::path& database, const std::string& name);
 
 }  // namespace trocar

@@ -1,3 +1,7 @@
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+
 #include "app/picture/gl/image.h"
 
 #include <png.h>
@@ -57,6 +61,16 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string encode_jpeg(const Image& image, int quality) {
+  std::string out;
+  const auto append = [](void* to, void* bytes, int count) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
+  };
+  if (stbi_write_jpg_to_func(append, &out, image.width, image.height, 3, image.rgb.data(), quality) == 0)
+    throw EnvironmentError("a picture cannot be written as JPEG");
+  return out;
 }
 
 }  // namespace trocar

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace trocar {
@@ -32,5 +33,9 @@ void write_png(const std::filesystem::path& path, const Image& image);
 /// The same PNG in memory, for embedding.
 /// @throws EnvironmentError when libpng fails.
 std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// A JPEG in memory, for pictures that come several times a second. @param quality 1..100.
+/// @throws EnvironmentError when it fails.
+std::string encode_jpeg(const Image& image, int quality);
 
 }  // namespace trocar

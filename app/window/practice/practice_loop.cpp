@@ -28,13 +28,24 @@ struct Drawn {
   FrameTarget target;
   UiLayer layer;
   Renderer renderer;
-  std::unique_ptr<Renderer> second = {};  // keeps its own organ on the GPU; while two runs are compared
+  std::unique_ptr<FrameTarget> small = {};  // once a desk has looked
+  std::unique_ptr<Renderer> second = {};    // keeps its own organ on the GPU; while two runs are compared
 
   Drawn(PracticeModel& model, GraphicsContext& given, bool to_window, Preset preset)
       : context(given),
         target(context, to_window),
         layer(context, model.scale()),
         renderer(context, model.assets().assets, {.preset = preset}) {}
+
+  /// What the scope shows, for a desk that looks: small, and made small by the GPU, so that reading it takes no time.
+  Image small_picture(unsigned texture, const PixelRect& part) {
+    constexpr int kHigh = 270, kWidest = 640;
+    const int wide = std::clamp(kHigh * part.width / std::max(1, part.height), 64, kWidest);
+    if (!small) small = std::make_unique<FrameTarget>(context, false);
+    small->begin(wide, kHigh);
+    small->place(texture, {0, 0, wide, kHigh}, 0);
+    return small->read();
+  }
 };
 
 }  // namespace
@@ -336,6 +347,8 @@ void PracticeLoop::State::draw_stage(int width, int height) {
   } else {
     drawn->second.reset();
   }
+  if (!placed.empty() && name == ScreenName::kRun && model.desk_wants_picture())
+    model.show_desk(drawn->small_picture(placed.front().texture, placed.front().part));
   drawn->target.begin(width, height);
   for (const Placed& one : placed) drawn->target.place(one.texture, one.part, one.dim);
 }

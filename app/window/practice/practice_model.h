@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/gl/image.h"
 #include "app/window/attempt/attempt_runner.h"
 #include "app/window/attempt/settings.h"
 #include "app/window/input/key_map.h"
@@ -142,6 +143,9 @@ class PracticeModel {
   /// notice at once, but in an exam, where it waits for the end; the recording of an attempt keeps the moment. @param
   /// dt_s since the last one.
   void pass(double dt_s);
+  /// A desk looks at the attempt that runs, and a new picture of it is due; said once for each.
+  bool desk_wants_picture();
+  void show_desk(Image picture);
 
   /// Where this model keeps attempts: ":memory:" when nothing is kept.
   std::filesystem::path database() const;

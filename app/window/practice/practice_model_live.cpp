@@ -19,6 +19,7 @@ void PracticeModel::State::tell_desk(bool guest) {
     if (told || told_phase.empty() || told_trainee != who) {
       LiveMoment idle;
       idle.program = kProgram;
+      idle.hears = true;
       idle.trainee = told_trainee = who;
       idle.phase = told_phase = "between attempts";
       told.reset();
@@ -27,7 +28,9 @@ void PracticeModel::State::tell_desk(bool guest) {
     return;
   }
   if (!told || told->moment().attempt != runner->attempt()) {
-    told.emplace(live_beginning(runner->scene(), kProgram, who, runner->attempt()));
+    LiveMoment beginning = live_beginning(runner->scene(), kProgram, who, runner->attempt());
+    beginning.hears = true;
+    told.emplace(std::move(beginning));
     told_phase.clear();
   }
   if (const RunMoment& moment = runner->newest(); moment.seen)
@@ -37,6 +40,16 @@ void PracticeModel::State::tell_desk(bool guest) {
   if (told->moment().phase == told_phase && !live->wanted()) return;
   told_phase = told->moment().phase;
   live->tell(told->moment());
+}
+
+bool PracticeModel::desk_wants_picture() {
+  const State& s = *state_;
+  return s.live && s.runner && s.play == Play::kAttempt && s.live->picture_wanted();
+}
+
+void PracticeModel::show_desk(Image picture) {
+  constexpr int kQuality = 75;
+  if (state_->live) state_->live->show([picture = std::move(picture)] { return encode_jpeg(picture, kQuality); });
 }
 
 /// A database that does not answer is asked again.

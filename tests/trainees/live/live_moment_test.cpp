@@ -23,6 +23,7 @@ StatusSnapshot sample() {
   told.moment.done = 3;
   told.moment.count = 12;
   told.moment.at_limit = true;
+  told.moment.hears = true;
   told.moment.events = {{1.5, "Target done", false}, {2.5, "Too much force", true}};
   told.process = {4711, "boot-a", 987654321012};
   told.machine = "lab-3";

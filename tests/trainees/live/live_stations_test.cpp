@@ -12,6 +12,7 @@
 #include <fstream>
 #include <thread>
 
+#include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "trainees/live/live_clock.h"
 #include "trainees/live/live_folder.h"
@@ -121,6 +122,38 @@ TEST_F(LiveStationsTest, NumbersAreWrittenOnlyWhileSomebodyLooksAndNewsAlways) {
   EXPECT_TRUE(comes([&] { return publisher.wanted(); }));
   publisher.tell(moment("T-7", "paused", 1.25));
   EXPECT_TRUE(comes([&] { return written()->moment.force_n == 1.25; }));
+}
+
+TEST_F(LiveStationsTest, APictureComesWhileSomebodyLooksAndGoesWithTheProgram) {
+  const std::string jpeg = "\xFF\xD8 a picture";
+  {
+    LivePublisher publisher(database_);
+    publisher.tell(moment("T-7"));
+    ASSERT_TRUE(comes([&] { return fs::exists(live_); }));
+    EXPECT_FALSE(publisher.picture_wanted()) << "nobody has looked";
+    look();
+    ASSERT_TRUE(comes([&] { return publisher.picture_wanted(); }));
+    EXPECT_FALSE(publisher.picture_wanted()) << "one at a time";
+    publisher.show([] { return std::string(LiveFolder::kLargest + 1, 'x'); });
+    publisher.show([&jpeg] { return jpeg; });
+    ASSERT_TRUE(comes([&] { return !look().stations.at(0).picture.empty(); }));
+    const std::string name = look().stations.at(0).picture;
+    EXPECT_EQ(look_at_picture(database_, name), jpeg);
+    age(live_ / name, 60);
+    EXPECT_EQ(look().stations.at(0).picture, "") << "not of this moment";
+    std::ofstream(live_ / name) << "<svg/>";
+    EXPECT_EQ(look_at_picture(database_, name), std::nullopt) << "no JPEG";
+    publisher.show([]() -> std::string { throw EnvironmentError("no picture"); });
+  }
+  EXPECT_TRUE(fs::is_empty(live_) || LiveFolder(database_, LiveFolder::Open::kExisting).names().empty());
+  for (const auto& entry : fs::directory_iterator(live_)) EXPECT_NE(entry.path().extension(), ".jpg");
+}
+
+TEST_F(LiveStationsTest, APictureIsNothingElseThanAPictureOfTheFolder) {
+  LiveFolder folder(database_, LiveFolder::Open::kMake);
+  ASSERT_TRUE(folder.write("a.json", "\xFF\xD8 no picture"));
+  for (const char* name : {"a.json", "../ward.db", "..", "", ".jpg", "/etc/passwd", "b.jpg"})
+    EXPECT_EQ(look_at_picture(database_, name), std::nullopt) << name;
 }
 
 TEST_F(LiveStationsTest, TwoProgramsAndTwoInOneAreFour) {

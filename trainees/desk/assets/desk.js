@@ -8,10 +8,34 @@
     if (every > 0) setTimeout(ask, 1000 * every);
   }
   function put(fresh) {
+    // A picture that is there stays, so that it does not blink; one that comes is followed.
+    live.querySelectorAll('img.scene').forEach(function (old) {
+      fresh.querySelectorAll('img.scene').forEach(function (one) {
+        if (one.getAttribute('src') === old.getAttribute('data-of')) one.parentNode.replaceChild(old, one);
+      });
+    });
     var at = document.activeElement, link = live.contains(at) ? at.getAttribute('href') : null;
     live.parentNode.replaceChild(fresh, live);
     live = fresh;
+    follow();
     if (link) live.querySelectorAll('a').forEach(function (one) { if (one.getAttribute('href') === link) one.focus(); });
+  }
+  // A few pictures a second.
+  function follow() {
+    live.querySelectorAll('img.scene').forEach(function (picture) {
+      if (picture.getAttribute('data-of')) return;
+      var of = picture.getAttribute('src');
+      picture.setAttribute('data-of', of);
+      function next() {
+        if (!document.contains(picture)) return;
+        if (document.hidden) { setTimeout(next, 1000); return; }
+        var fresh = new Image();
+        fresh.onload = function () { picture.src = fresh.src; setTimeout(next, 300); };
+        fresh.onerror = function () { setTimeout(next, 1000); };
+        fresh.src = of + '?' + Date.now();
+      }
+      setTimeout(next, 300);
+    });
   }
   function ask() {
     if (document.hidden) { again(); return; }
@@ -29,6 +53,7 @@
     request.onerror = request.ontimeout = again;
     request.send();
   }
+  follow();
   again();
 })();
 // A picture that follows a slider. The first one of an attempt takes some seconds, since the run is replayed before: it is asked for again.

@@ -97,9 +97,16 @@ std::string condition(const LiveStation& station) {
   return station.age_s > kOld_s ? "<p class=\"dim\">As it was " + age_words(station.age_s) + ".</p>" : "";
 }
 
+/// What the trainee sees, several times a second where there is a script, else as often as the page.
+std::string picture(const LiveStation& station) {
+  if (station.picture.empty()) return "";
+  return "<p><img class=\"scope scene\" alt=\"View of the scope now\" src=\"/station/picture/" +
+         url_part(station.picture) + "\"/></p>";
+}
+
 std::string message_link(const LiveStation& station) {
   const std::string& code = station.told.moment.trainee;
-  if (station.state == State::kEnded || code.empty()) return "";
+  if (station.state == State::kEnded || code.empty() || !station.told.moment.hears) return "";
   return "<p>" +
          ("<a class=\"button\" href=\"/station/message" + query_html({{"trainee", code}}) + "\">Write to " +
           escape_html(code) + "</a>") +
@@ -118,8 +125,8 @@ std::string station_card(const LiveStation& station, std::size_t number, const F
              station_fact("Force now", newton(now.force_n)) + station_fact("Peak force", newton(now.peak_force_n)) +
              station_fact("Limit", newton(now.limit_n)) + station_fact("Input", now.hand) +
              station_fact("Device", device_words(now)) + station_fact("Setup", now.setup);
-  out +=
-      "<dl class=\"facts\">" + facts + "</dl>" + (station.state == State::kEnded ? "" : force_bar(now)) + events(now);
+  out += picture(station) + "<dl class=\"facts\">" + facts + "</dl>" +
+         (station.state == State::kEnded ? "" : force_bar(now)) + events(now);
   if (frame.may_write) out += message_link(station);
   const std::string where = station.told.machine.empty() ? "" : " at " + station.told.machine;
   return section("now-" + std::to_string(number),

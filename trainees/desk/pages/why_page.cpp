@@ -122,9 +122,10 @@ std::string metric_figure(const MetricCurve& metric, const std::vector<CurvePoin
 
 std::string why_page(const WhyView& view, Frame frame) {
   frame.title = "Why";
-  const std::string drawn = view.asked.exercise_id.empty()
-                                ? "<p class=\"dim\">Choose an exercise to draw a measure over the attempts.</p>"
-                                : "";
+  const std::string drawn =
+      view.metric.empty() && !view.lines.empty()
+          ? "<p class=\"dim\">Choose an exercise and a level to draw a measure over the attempts.</p>"
+          : "";
   return document(frame, "<div class=\"title\"><h1>Why attempts fail</h1><p class=\"dim\">" +
                              escape_html(view.asked.group.empty() ? "everybody" : "group " + view.asked.group) +
                              ", the newest " + std::to_string(kRowsForLosses) + " attempts of each person</p></div>" +

@@ -118,15 +118,28 @@ MetricCurve own_metric(Desk& desk, const LearningCurve& curve, const std::string
   return out;
 }
 
-std::vector<LossLine> loss_lines(Desk& desk, const std::vector<CohortLine>& lines,
+std::vector<LossLine> loss_lines(Desk& desk, const std::vector<NewestAttempts>& of,
                                  const std::map<std::string, std::string>& titles) {
   std::vector<LossLine> out;
-  for (Losses& losses : losses_of(desk.database, lines)) {
+  for (Losses& losses : losses_of(desk.database, of)) {
     const auto title = titles.find(losses.key.exercise_id);
     const std::string words = title == titles.end() ? losses.key.exercise_id : title->second;
     out.push_back({words, std::move(losses), {}});
   }
   return out;
+}
+
+/// How bad it is, as the cohort's page says it.
+void tell_harm(TraineeView& view, Desk& desk, const ProgressRules& rules, const std::string& now_utc) {
+  const auto is_unsafe = [](const CurveView& curve) {
+    return !curve.judgements.empty() && curve.judgements.front().flag == Flag::kUnsafe;
+  };
+  if (std::none_of(view.curves.begin(), view.curves.end(), is_unsafe)) return;
+  CohortFilter own;
+  own.trainee = view.code;
+  for (const CohortLine& line : lines_of(desk, rules, own, now_utc))
+    for (CurveView& curve : view.curves)
+      if (line.harm && line.key == curve.key) curve.judgements.front().evidence = line.judgements.front().evidence;
 }
 
 /// The first that the query fits. What is not there is said: a page about something else would mislead.
@@ -264,6 +277,8 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   return view;
 }
 
+constexpr std::size_t kCurvesDrawn = 4;  // of a measure: each is read over all attempts
+
 WhyView why_view(Desk& desk, const Request& request) {
   WhyView view;
   view.asked.group = argument(request.query, "group");
@@ -278,8 +293,8 @@ WhyView why_view(Desk& desk, const Request& request) {
   filter.exercise = view.asked.exercise_id;
   filter.level = view.asked.level;
   const std::vector<CohortLine> lines = lines_of(desk, rules_in_force(desk.database), filter, request.now_utc);
-  view.lines = loss_lines(desk, lines, titles);
-  if (view.asked.exercise_id.empty()) return view;
+  view.lines = loss_lines(desk, newest_attempts(lines), titles);
+  if (view.lines.size() > kCurvesDrawn) return view;
   std::set<std::string> names;
   std::set<CurveKey> read;
   for (const CohortLine& line : lines)
@@ -301,14 +316,13 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   const std::vector<Choice> exercises = exercise_choices(desk.database);
   const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
   LevelReader levels(desk);
-  CohortFilter own;
-  own.trainee = picture.code;
-  const std::vector<CohortLine> lines = lines_of(desk, rules, own, request.now_utc);
+  std::vector<NewestAttempts> newest;
   for (const CurveDetail& curve : picture.curves) {
     view.curves.push_back(curve_view(curve, titles, levels, rules));
-    const auto line = std::find_if(lines.begin(), lines.end(),
-                                   [&curve](const CohortLine& one) { return one.harm && one.key == curve.curve.key; });
-    if (line != lines.end()) view.curves.back().judgements.front().evidence = line->judgements.front().evidence;
+    newest.push_back({curve.curve.key, {}});
+    const auto& attempts = curve.curve.attempts;
+    for (auto at = attempts.rbegin(); at != attempts.rend() && newest.back().rows.size() < kRowsForLosses; ++at)
+      newest.back().rows.push_back(at->summary.row);
     add_due(view, curve, view.curves.back().title);
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
@@ -316,7 +330,8 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   view.page = whole_number(argument(request.query, "page"), 1);
   if (view.chosen < view.curves.size())
     view.metric = own_metric(desk, picture.curves[view.chosen].curve, argument(request.query, "metric"));
-  if (!picture.training_erased) view.losses = loss_lines(desk, lines, titles);
+  view.losses = loss_lines(desk, newest, titles);
+  tell_harm(view, desk, rules, request.now_utc);
   for (const PastAttempt& attempt : picture.ended_by_device) {
     const AttemptSummary& s = attempt.summary;
     view.ended_by_device.push_back({{s.exercise_id, s.level, s.hand, s.rubric_sha256}, point_of(s)});

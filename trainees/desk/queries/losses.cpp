@@ -62,23 +62,11 @@ class LossPass {
     const std::int64_t score = scored ? score_.integer(0) : 0;
     const bool passed = scored && score_.integer(1) != 0;
     score_.run();
-    add_critical(attempt, draft);  // an attempt that was left after one has no score, and still shows it
-    if (!scored) return;
+    if (!scored) return add_critical(attempt, draft);  // one that was left after such an event still shows it
     ++draft.losses.graded;
     draft.losses.passed += passed ? 1 : 0;
     add_parts(score, draft);
-    caps_.bind(score);
-    while (caps_.step()) {
-      if (caps_.view(0) == "unfinished") ++draft.losses.unfinished;
-      if (caps_.view(0) != "gate") continue;
-      for (auto& [kind, sum] : draft.parts) {
-        if (sum.lost.part.name != caps_.view(1)) continue;
-        ++sum.lost.gate_failed;
-        sum.lost.gate_below = caps_.real(2);
-        break;
-      }
-    }
-    caps_.run();
+    if (!passed) add_caps(attempt, score, draft);  // no cap lets an attempt pass
   }
 
   static Losses finished(LossDraft draft) {
@@ -98,6 +86,24 @@ class LossPass {
   }
 
  private:
+  void add_caps(std::int64_t attempt, std::int64_t score, LossDraft& draft) {
+    bool grave = false;
+    caps_.bind(score);
+    while (caps_.step()) {
+      grave = grave || caps_.view(0) == "critical";
+      if (caps_.view(0) == "unfinished") ++draft.losses.unfinished;
+      if (caps_.view(0) != "gate") continue;
+      for (auto& [kind, sum] : draft.parts) {
+        if (sum.lost.part.name != caps_.view(1)) continue;
+        ++sum.lost.gate_failed;
+        sum.lost.gate_below = caps_.real(2);
+        break;
+      }
+    }
+    caps_.run();
+    if (grave) add_critical(attempt, draft);
+  }
+
   void add_parts(std::int64_t score, LossDraft& draft) {
     parts_.bind(score);
     while (parts_.step()) {
@@ -121,15 +127,21 @@ class LossPass {
 
 }  // namespace
 
-std::vector<Losses> losses_of(Database& database, const std::vector<CohortLine>& lines) {
+std::vector<NewestAttempts> newest_attempts(const std::vector<CohortLine>& lines) {
+  std::vector<NewestAttempts> out;
+  for (const CohortLine& line : lines) out.push_back({line.key, line.newest_rows});
+  return out;
+}
+
+std::vector<Losses> losses_of(Database& database, const std::vector<NewestAttempts>& of) {
   LossPass pass(database.connection());
   std::map<CurveKey, LossDraft> drafts;
-  for (const CohortLine& line : lines) {
-    if (line.newest_rows.empty()) continue;
-    LossDraft& draft = drafts[line.key];
-    draft.losses.key = line.key;
+  for (const NewestAttempts& one : of) {
+    if (one.rows.empty()) continue;
+    LossDraft& draft = drafts[one.key];
+    draft.losses.key = one.key;
     ++draft.losses.people;
-    for (const std::int64_t row : line.newest_rows) pass.add(row, draft);
+    for (const std::int64_t row : one.rows) pass.add(row, draft);
   }
   std::vector<Losses> out;
   for (auto& [key, draft] : drafts) out.push_back(LossPass::finished(std::move(draft)));

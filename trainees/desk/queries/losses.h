@@ -27,8 +27,14 @@ struct Losses {
   std::vector<HarmfulEvents> critical = {};    ///< most first
 };
 
-/// One for each curve of the lines, in the order of the keys. @param lines as cohort_lines() gives them, filtered.
-std::vector<Losses> losses_of(Database& database, const std::vector<CohortLine>& lines);
+/// Somebody's newest attempts on a curve, at most kRowsForLosses.
+struct NewestAttempts {
+  CurveKey key = {};
+  std::vector<std::int64_t> rows = {};
+};
+std::vector<NewestAttempts> newest_attempts(const std::vector<CohortLine>& lines);
+/// One for each curve, in the order of the keys.
+std::vector<Losses> losses_of(Database& database, const std::vector<NewestAttempts>& of);
 
 /// How a measure goes with the attempts of a cohort: quartiles by attempt number, as cohort_curve() has them.
 struct MetricCohort {

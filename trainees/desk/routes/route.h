@@ -88,6 +88,8 @@ struct DeskSources {
   FilmSource film = {};
   std::string no_film = {};  ///< why none can be made; "" when they can
   /// Words for a metric: what it measures and how (for the formula column); "" when unknown.
+  /// JPEG of what a station draws now, by LiveStation::picture; nothing where there is none.
+  std::function<std::optional<std::string>(const std::string& name)> station_picture = {};
   std::function<std::string(const std::string& metric)> metric_words = {};
   /// What an exercise's file says of a level. @throws InputError: a text or level that cannot be read.
   std::function<LevelFacts(const std::string& exercise_text, const std::string& level)> level_facts = {};

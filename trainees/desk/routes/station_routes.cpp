@@ -20,7 +20,7 @@ Response station_answer(std::string body) {
 std::string station_now(const LiveStations& view, const std::string& trainee) {
   for (const LiveStation& station : view.stations) {
     const LiveMoment& now = station.told.moment;
-    if (now.trainee != trainee || station.state == LiveStation::State::kEnded) continue;
+    if (now.trainee != trainee || !now.hears || station.state == LiveStation::State::kEnded) continue;
     return now.attempt.empty() ? "Signed in, between attempts."
                                : now.exercise + " " + now.level + ", " + now.phase + ".";
   }
@@ -40,6 +40,15 @@ Response station(const Request& request, Desk& desk) {
   const std::string sent = argument(request.query, "sent");
   if (!sent.empty()) frame.notice = "Sent to " + sent + ".";
   return station_answer(station_page(now_running(desk), frame));
+}
+
+Response station_picture(const Request& request, Desk& desk) {
+  const auto jpeg =
+      desk.sources.station_picture ? desk.sources.station_picture(argument(request.arguments, "name")) : std::nullopt;
+  if (!jpeg) throw InputError("there is no picture of that station now");
+  Response out = station_answer(*jpeg);
+  out.type = "image/jpeg";
+  return out;
 }
 
 Response message_form(const Request& request, Desk& desk) {
@@ -69,8 +78,8 @@ std::vector<Route> station_routes() {
     return Route{method, path, Audience::kInstructors,
                  [action](const Request& r, Desk& d) { return answered(r, d, 400, [&] { return action(r, d); }); }};
   };
-  return {route("GET", "/station", station), route("GET", "/station/message", message_form),
-          route("POST", "/station/message", send)};
+  return {route("GET", "/station", station), route("GET", "/station/picture/{name}", station_picture),
+          route("GET", "/station/message", message_form), route("POST", "/station/message", send)};
 }
 
 }  // namespace trocar::review

@@ -1,9 +1,13 @@
 #include "app/window/practice/practice_loop.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <thread>
 
 #include "app/window/practice/screen_table.h"
 #include "tests/app/window/pages/loop_bench.h"
+#include "trainees/live/live_stations.h"
 
 namespace trocar::practice_loop_test {
 namespace {
@@ -25,6 +29,26 @@ TEST_F(PracticeLoopTest, BeginsAtTheStartWithALitScene) {
     for (int y = 0; y < image.height; ++y)
       red += image.pixel(x, y)[0] > 60 && image.pixel(x, y)[0] > image.pixel(x, y)[2] ? 1 : 0;
   EXPECT_GT(red, image.width * image.height / 20) << "the scope's picture is dark or missing";
+}
+
+TEST_F(PracticeLoopTest, ADeskThatLooksSeesTheScopeOfAnAttempt) {
+  ASSERT_EQ(model_->begin_attempt(), "");
+  loop_->go(ScreenName::kRun);
+  const std::filesystem::path file = model_->database();
+  std::string name;
+  for (int i = 0; i < 600 && name.empty(); ++i) {
+    frame();
+    const LiveStations seen = look_at_stations(file);
+    if (!seen.stations.empty()) name = seen.stations[0].picture;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_NE(name, "") << "no picture came";
+  const auto jpeg = look_at_picture(file, name);
+  ASSERT_TRUE(jpeg);
+  EXPECT_GT(jpeg->size(), 2000u) << "an empty picture is smaller";
+  if (const char* folder = std::getenv("TROCAR_PICTURES"))
+    std::ofstream(std::filesystem::path(folder) / "desk_live.jpg", std::ios::binary) << *jpeg;
+  model_->end_attempt();
 }
 
 TEST_F(PracticeLoopTest, MenuOpensAndClosesWithEscape) {

@@ -260,12 +260,15 @@ LiveStations sample_stations() {
   now.device_state = "active";
   now.rate_hz = 999.7;
   now.missed = 0;
+  now.hears = true;
+  running.picture = "0192-aa.jpg";
   now.events = {{12.5, "Target done", false}, {44.1, "Too much force", true}};
   running.told.process = {4711, "boot", 99};
   running.told.machine = "lab-3";
   idle.told.moment.program = "practice window";
   idle.told.moment.trainee = "chen";
   idle.told.moment.phase = "between attempts";
+  idle.told.moment.hears = true;
   idle.told.process = {4712, "boot", 100};
   return {{running, idle}, {}, ""};
 }

@@ -33,6 +33,22 @@ TEST(StationPage, ShowsEveryProgramAndLooksAgain) {
   EXPECT_EQ(idle.find("Clock"), std::string::npos) << "there is none between attempts";
 }
 
+TEST(StationPage, NobodyIsWrittenToWhereNothingShowsIt) {
+  LiveStations view = sample_stations();
+  view.stations[0].told.moment.hears = false;  // as a scripted run
+  const CheckedPage page = check_page(station_page(view, sample_frame()));
+  EXPECT_EQ(page.by_id("now-1")->text.find("Write to"), std::string::npos);
+  EXPECT_NE(page.by_id("now-2")->text.find("Write to chen"), std::string::npos);
+}
+
+TEST(StationPage, ShowsTheScopesPictureWhereThereIsOne) {
+  const CheckedPage page = check_page(station_page(sample_stations(), sample_frame()));
+  const auto pictures = page.all("img", "scene");
+  ASSERT_EQ(pictures.size(), 1U) << "the other one is between attempts";
+  EXPECT_EQ(pictures[0]->of("src"), "/station/picture/0192-aa.jpg");
+  EXPECT_FALSE(pictures[0]->of("alt").empty());
+}
+
 TEST(StationPage, ADeadProgramIsNotShownAsRunning) {
   LiveStations view = sample_stations();
   view.stations[0].state = LiveStation::State::kEnded;
@@ -91,6 +107,7 @@ class StationRoutes : public TemporaryFolder {
     const RouteTable::Found found = table_.find(method, path);
     Request request;
     request.path = path;
+    request.arguments = found.arguments;
     (method == "GET" ? request.query : request.form) = std::move(values);
     request.account = Account{"a-1", "ines", "Dr Ines Okafor", Role::kInstructor};
     request.token = "token-4711";
@@ -104,8 +121,28 @@ class StationRoutes : public TemporaryFolder {
 };
 
 TEST_F(StationRoutes, AreForInstructorsOnly) {
-  ASSERT_EQ(table_.routes().size(), 3U);
+  ASSERT_EQ(table_.routes().size(), 4U);
   for (const Route& route : table_.routes()) EXPECT_EQ(route.audience, Audience::kInstructors) << route.path;
+}
+
+TEST_F(StationRoutes, APictureIsGivenOrSaidToBeMissing) {
+  EXPECT_EQ(ask("GET", "/station/picture/0192-aa.jpg").status, 400) << "this desk has none";
+  desk_.sources.station_picture = [](const std::string& name) {
+    return name == "0192-aa.jpg" ? std::optional<std::string>("\xFF\xD8 picture") : std::nullopt;
+  };
+  EXPECT_EQ(ask("GET", "/station/picture/0192-aa.jpg").type, "image/jpeg");
+  EXPECT_EQ(ask("GET", "/station/picture/0192-aa.jpg").body, "\xFF\xD8 picture");
+  EXPECT_EQ(ask("GET", "/station/picture/else.jpg").status, 400);
+}
+
+TEST_F(StationRoutes, WhoRunsWhatShowsNoMessagesMeetsThemAtTheNextSignIn) {
+  desk_.sources.stations = [] {
+    LiveStations view = sample_stations();
+    view.stations[0].told.moment.hears = false;
+    return view;
+  };
+  EXPECT_NE(ask("GET", "/station/message", {{"trainee", "dubois"}}).body.find("at the next sign-in"),
+            std::string::npos);
 }
 
 TEST_F(StationRoutes, AMessageIsASealedNoteThatIsKnownAsOne) {

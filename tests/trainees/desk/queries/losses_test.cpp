@@ -26,7 +26,7 @@ class LossesOfACohort : public testing::Test {
     store_attempt(database_, sample_start(who), result);
   }
   std::vector<Losses> losses(const CohortFilter& filter = {}) {
-    return losses_of(database_, cohort_lines(database_, {}, filter, kNow));
+    return losses_of(database_, newest_attempts(cohort_lines(database_, {}, filter, kNow)));
   }
   Database database_{":memory:"};
 };

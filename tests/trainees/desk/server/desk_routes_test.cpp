@@ -120,13 +120,14 @@ TEST_F(DeskRoutes, WhyAttemptsFailFollowsTheFilterAndDrawsTheMeasureThatIsAsked)
   EXPECT_EQ(all.problems, std::vector<std::string>{});
   EXPECT_FALSE(all.all("table").empty());
   EXPECT_TRUE(all.all("svg", "measure").empty()) << "which exercise?";
-  const CheckedPage one = page("/why", {{"exercise", "surface-touch"}, {"metric", "time_s"}});
+  const CheckedPage one = page("/why", {{"exercise", "surface-touch"}, {"level", "L1"}, {"metric", "time_s"}});
   EXPECT_EQ(one.problems, std::vector<std::string>{});
   ASSERT_FALSE(one.all("svg", "measure").empty());
   EXPECT_EQ(one.all("svg", "measure")[0]->of("aria-label"), "Time s by attempt");
   EXPECT_LT(one.all("table").size(), all.all("table").size());
   EXPECT_TRUE(page("/why", {{"group", "' OR 1=1 --"}}).all("table").empty());
-  EXPECT_EQ(page("/why", {{"exercise", "surface-touch"}, {"metric", "<script>"}}).problems, std::vector<std::string>{});
+  EXPECT_EQ(page("/why", {{"exercise", "surface-touch"}, {"level", "L1"}, {"metric", "<script>"}}).problems,
+            std::vector<std::string>{});
 }
 
 TEST_F(DeskRoutes, ATraineesPageSaysWhyAndDrawsAnyMeasure) {
