@@ -136,18 +136,30 @@ std::string record_page(const RecordView& view, Frame frame) {
                              check_section(view, frame) + "</div><div>" + backup_section(view, frame) + "</div></div>");
 }
 
+namespace {
+
+/// What it is about in words; its identifier, which the record knows it by, on the words. An identifier of something
+/// that is gone: its beginning.
+std::string subject_cell(const AuditEntry& entry) {
+  const bool uuid = entry.subject.size() == 36;
+  const std::string words = !entry.words.empty() ? entry.words
+                            : uuid               ? entry.subject.substr(0, 8) + "\xE2\x80\xA6"
+                                                 : entry.subject;
+  return "<td class=\"long\"" + (uuid ? " title=\"" + escape_html(entry.subject) + "\"" : std::string()) + ">" +
+         (entry.page.empty() ? escape_html(words) : link_html(escape_html(entry.page), words)) + "</td>";
+}
+
+}  // namespace
+
 std::string audit_page(const AuditView& view, Frame frame) {
   frame.title = "Audit trail";
   std::string rows;
   for (const AuditEntry& entry : view.entries) {
-    const bool attempt = entry.action.starts_with("attempt ") && entry.subject.size() == 36;
     rows += "<tr><th scope=\"row\" class=\"n\">" + std::to_string(entry.position) + "</th><td>" + date_html(entry.utc) +
             (entry.before_utc.empty()
                  ? ""
                  : " <span class=\"tag\">clock set back from " + date_html(entry.before_utc) + "</span>") +
-            "</td>" + cell(entry.who) + cell(entry.action) + "<td class=\"mono long\">" +
-            (attempt ? link_html("/attempt/" + url_part(entry.subject), entry.subject) : escape_html(entry.subject)) +
-            "</td><td class=\"mono\">" +
+            "</td>" + cell(entry.who) + cell(entry.action) + subject_cell(entry) + "<td class=\"mono\">" +
             escape_html(entry.detail.size() > 40 ? entry.detail.substr(0, 16) + "\xE2\x80\xA6" : entry.detail) +
             "</td></tr>";
   }

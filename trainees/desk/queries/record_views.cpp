@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <deque>
 #include <filesystem>
 #include <tuple>
 
@@ -66,6 +67,48 @@ constexpr const char* kMatching = " WHERE (?1 = '' OR u.actor = ?1) AND (?2 = ''
 std::string name_of_actor(const std::string& actor, const std::string& known) {
   if (actor == "trocar") return "the program";
   return known.empty() ? "an account that is gone (" + actor.substr(0, 8) + ")" : known;
+}
+
+/// By the subject's UUID: words, and a page. What was erased keeps a code that tells nobody.
+constexpr const char* kSubjects[] = {
+    "SELECT 'attempt no. ' || a.id || ' of ' || k.code, '/attempt/' || a.uuid FROM attempt a JOIN known_trainee k ON"
+    " k.id = a.trainee_id WHERE a.uuid = ?",
+    "SELECT k.code, '/trainee/' || k.code FROM trainee t JOIN known_trainee k ON k.id = t.id WHERE t.uuid = ?",
+    "SELECT 'signature on no. ' || a.id || ' of ' || k.code, '/attempt/' || a.uuid FROM signature s JOIN attempt a ON"
+    " a.id = s.attempt_id JOIN known_trainee k ON k.id = a.trainee_id WHERE s.uuid = ?",
+    "SELECT 'note to ' || k.code, '/trainee/' || k.code || '#notes' FROM note n JOIN known_trainee k ON"
+    " k.id = n.trainee_id WHERE n.uuid = ?",
+    "SELECT 'decision on no. ' || a.id || ' of ' || k.code, '/attempt/' || a.uuid FROM verdict_override o JOIN attempt "
+    "a"
+    " ON a.id = o.attempt_id JOIN known_trainee k ON k.id = a.trainee_id WHERE o.uuid = ?",
+    "SELECT 'rating of no. ' || a.id || ' of ' || k.code, '/attempt/' || a.uuid FROM rating r JOIN attempt a ON"
+    " a.id = r.attempt_id JOIN known_trainee k ON k.id = a.trainee_id WHERE r.uuid = ?",
+    "SELECT 'certificate of ' || k.code || ', ' || c.exercise_id || ' ' || c.level, '/trainee/' || k.code ||"
+    " '#certificates' FROM certificate c JOIN known_trainee k ON k.id = c.trainee_id WHERE c.uuid = ?",
+    "SELECT 'certificate of ' || k.code || ', ' || c.exercise_id || ' ' || c.level, '/trainee/' || k.code ||"
+    " '#certificates' FROM revocation r JOIN certificate c ON c.id = r.certificate_id JOIN known_trainee k ON"
+    " k.id = c.trainee_id WHERE r.uuid = ?",
+    "SELECT 'account ' || login, '/accounts' FROM account WHERE uuid = ?",
+    "SELECT name || ', version ' || version, '/curriculum' FROM curriculum WHERE uuid = ?",
+    "SELECT 'benchmark of ' || exercise_id || ' ' || level, '/curriculum' FROM benchmark WHERE uuid = ?",
+    "SELECT 'consent of ' || k.code, '/trainee/' || k.code FROM consent c JOIN known_trainee k ON k.id = c.trainee_id"
+    " WHERE c.uuid = ?"};
+
+void add_subjects(sqlite3* connection, std::vector<AuditEntry>& entries) {
+  constexpr std::size_t kUuid = 36;
+  std::deque<sql::Statement> queries;
+  for (const char* query : kSubjects) queries.emplace_back(connection, query);
+  for (AuditEntry& entry : entries) {
+    if (entry.subject.size() != kUuid) continue;
+    for (sql::Statement& query : queries) {
+      if (query.bind(entry.subject).step()) {
+        entry.words = query.text(0);
+        entry.page = query.text(1);
+      }
+      query.run();
+      if (!entry.words.empty()) break;
+    }
+  }
 }
 
 constexpr const char* kActorName =
@@ -136,6 +179,7 @@ AuditView audit_view(const Database& database, const AuditQuestion& asked) {
   while (rows.step())
     out.entries.push_back({rows.integer(0), rows.text(1), name_of_actor(rows.text(2), rows.text(6)), rows.text(3),
                            rows.text(4), rows.text(5)});
+  add_subjects(connection, out.entries);
   const std::vector<ClockSetBack> steps = clock_set_back(connection);
   out.set_back = steps.size();
   for (const ClockSetBack& step : steps) {

@@ -46,6 +46,8 @@ struct AuditEntry {
   std::int64_t position = 0;
   std::string utc = {}, who = {}, action = {}, subject = {}, detail = {};
   std::string before_utc = {};  ///< where the clock was set back before it: what it had said
+  std::string words = {};  ///< what the subject is, for people: "attempt no. 12 of T-7"; "" where it says so itself
+  std::string page = {};   ///< path of the page about it, "" where there is none
 };
 
 inline constexpr int kAuditOnPage = 100;

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 
@@ -163,6 +165,29 @@ TEST_F(DeskAdmin, TheAuditTrailIsPagedAndFiltered) {
   EXPECT_NE(page_2.find("/audit?action=note%20added&amp;page=1"), std::string::npos) << "the filter is kept";
   EXPECT_NE(page("/audit?page=x", adam).find("Page 1 of"), std::string::npos);
   EXPECT_NE(page("/audit?action=nothing", adam).find("No entry matches"), std::string::npos);
+}
+
+TEST_F(DeskAdmin, TheAuditTrailSaysWhatItIsAboutInWords) {
+  add_accounts();
+  const AttemptId attempt = store_attempt(database_, sample_start("T-9"), sample_result(80));
+  AssessmentStore assessments(database_);
+  const Author ines{AccountStore(database_).find("ines")->uuid, "Ines"};
+  const std::string number = std::to_string(AttemptStore(database_).find(attempt.uuid).row);
+  const std::string note = assessments.add_note("T-9", "", "Softer.", ines).uuid;
+  const std::string signature = assessments.sign(attempt.uuid, "review", "", ines).uuid;
+  const std::string certificate = assessments.certify("T-9", "surface-touch", "L1", "1", "{}", ines).uuid;
+  std::map<std::string, std::pair<std::string, std::string>> seen;
+  for (const AuditEntry& entry : audit_view(database_, {}).entries) seen[entry.subject] = {entry.words, entry.page};
+  using Words = std::pair<std::string, std::string>;
+  EXPECT_EQ(seen[attempt.uuid], Words("attempt no. " + number + " of T-9", "/attempt/" + attempt.uuid));
+  EXPECT_EQ(seen[note], Words("note to T-9", "/trainee/T-9#notes"));
+  EXPECT_EQ(seen[signature], Words("signature on no. " + number + " of T-9", "/attempt/" + attempt.uuid));
+  EXPECT_EQ(seen[certificate], Words("certificate of T-9, surface-touch L1", "/trainee/T-9#certificates"));
+  EXPECT_EQ(seen[AccountStore(database_).find("adam")->uuid], Words("account adam", "/accounts"));
+  const std::string body = page("/audit", signed_in("adam"));
+  EXPECT_NE(body.find(">signature on no. " + number + " of T-9</a>"), std::string::npos);
+  EXPECT_EQ(body.find(">" + attempt.uuid + "<"), std::string::npos) << "no bare identifier";
+  EXPECT_NE(body.find("title=\"" + attempt.uuid), std::string::npos) << "yet it can be had";
 }
 
 TEST_F(DeskAdmin, RetentionIsLookedAtAndErasesNobody) {

@@ -68,7 +68,7 @@ TEST_F(DeskRoutes, EveryPageIsSound) {
   for (const std::string& path :
        {std::string("/accounts"), std::string("/record"), std::string("/audit"), std::string("/retention"),
         std::string("/"), "/trainee/" + trainee_, "/attempt/" + attempt_, "/compare/" + attempt_ + "/" + attempt_,
-        std::string("/curriculum"), std::string("/station")})
+        std::string("/curriculum"), std::string("/station"), std::string("/why")})
     EXPECT_EQ(page(path).problems, std::vector<std::string>{}) << path;
 }
 
@@ -76,7 +76,7 @@ TEST_F(DeskRoutes, EmptyDatabase) {
   Database empty(":memory:");
   Desk desk{empty};
   for (const char* path :
-       {"/", "/curriculum", "/station", "/cohort.csv", "/accounts", "/record", "/audit", "/retention"}) {
+       {"/", "/why", "/curriculum", "/station", "/cohort.csv", "/accounts", "/record", "/audit", "/retention"}) {
     Request request;
     request.path = path;
     request.account = staff_;
