@@ -17,7 +17,7 @@ std::string gate_cell(const LostPart& lost, int graded) {
   if (!lost.part.gate) return "<td></td>";
   if (lost.gate_failed == 0) return "<td>" + shape("pass") + "met by all</td>";
   const double asked = lost.part.zero_at + lost.gate_below * (lost.part.full_at - lost.part.zero_at);
-  return "<td class=\"bad\">" + shape("unsafe") + "not met in " + of_words(lost.gate_failed, graded) + "; asks " +
+  return "<td class=\"long bad\">" + shape("unsafe") + "not met in " + of_words(lost.gate_failed, graded) + "; asks " +
          escape_html(part_value_text(lost.part, asked)) +
          (lost.part.full_at < lost.part.zero_at ? " or less" : " or more") + "</td>";
 }
