@@ -87,6 +87,7 @@ const std::vector<Territory>& territories() {
       {"^cairo|^pango/|^librsvg/", "^trainees/desk/print/.*\\.cpp$",
        "PDF is written in sources of trainees/desk/print"},
       {"^(pqxx|libpq)", "^trainees/exchange/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/exchange/sync"},
+      {"^curl/", "^trainees/exchange/lrs/.*\\.cpp$", "the web client stays in sources of trainees/exchange/lrs"},
       {"^hidapi", "^app/window/input/.*\\.cpp$", "HID stays in sources of app/window/input"},
   };
   return table;

@@ -12,6 +12,7 @@
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/command.h"
+#include "app/cli/records/lrs_command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
 #include "app/session/recording/recording_reader.h"
@@ -45,17 +46,6 @@ std::optional<double> pass_mark(const std::string& toml, const std::string& leve
   } catch (const InputError&) {
     return std::nullopt;
   }
-}
-
-/// Parsing a ruleset costs more than a statement: each is parsed once a level.
-PassMark remembered_pass_mark() {
-  using Ruleset = std::pair<std::string, std::string>;
-  return
-      [known = std::map<Ruleset, std::optional<double>>()](const std::string& toml, const std::string& level) mutable {
-        const auto [at, fresh] = known.try_emplace({toml, level});
-        if (fresh) at->second = pass_mark(toml, level);
-        return at->second;
-      };
 }
 
 std::string file_name_of(const std::string& text) {
@@ -153,6 +143,23 @@ void write_statements(const ExportOptions& options, Database& database, const Ex
 
 }  // namespace
 
+PassMark remembered_pass_mark() {
+  using Ruleset = std::pair<std::string, std::string>;
+  return
+      [known = std::map<Ruleset, std::optional<double>>()](const std::string& toml, const std::string& level) mutable {
+        const auto [at, fresh] = known.try_emplace({toml, level});
+        if (fresh) at->second = pass_mark(toml, level);
+        return at->second;
+      };
+}
+
+void add_export_filter(CLI::App& command, ExportFilter& filter) {
+  command.add_option("--trainee", filter.trainee, "One trainee only");
+  command.add_option("--group", filter.group, "One group only");
+  command.add_option("--exercise", filter.exercise, "One exercise only, by its id");
+  command.add_option("--attempt", filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
+}
+
 int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err) {
   check_options(options);
   const bool folder = options.format != "json" && options.format != "xapi";
@@ -210,14 +217,12 @@ void add_export(CLI::App& parent, CommandAction& chosen) {
       ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws", "traces"}));
   command->add_option("--out", o.out, "Folder (csv, jigsaws, traces) or file (json, xapi) that does not exist yet")
       ->required();
-  command->add_option("--trainee", o.filter.trainee, "One trainee only");
-  command->add_option("--group", o.filter.group, "One group only");
-  command->add_option("--exercise", o.filter.exercise, "One exercise only, by its id");
-  command->add_option("--attempt", o.filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
+  add_export_filter(*command, o.filter);
   command->add_option("--home-page", o.home_page,
                       "xapi: URL of who runs the simulator, of which the trainees' UUIDs are accounts");
   command->add_option("--cmi5", o.cmi5, "xapi: JSON with the data of a cmi5 launch, which the newest attempt answers");
   command->add_option("--db", o.database, "Database file");
+  add_lrs(parent, chosen);
 }
 
 }  // namespace trocar

@@ -1,16 +1,15 @@
 #include "trainees/exchange/sync/central_address.h"
 
 #include <libpq-fe.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "trainees/files/password_file.h"
 
 namespace trocar::sync {
 namespace {
@@ -62,18 +61,6 @@ std::string weaker_mode(const std::map<std::string, std::string>& given) {
   return mode == given.end() || mode->second == kStrong || !leaves_this_machine(given) ? "" : mode->second;
 }
 
-std::string password_of(const std::filesystem::path& file) {
-  struct stat about {};
-  if (stat(file.c_str(), &about) != 0)
-    throw InputError(file.string() + ": the password cannot be read: there is no such file");
-  if ((about.st_mode & 077) != 0) throw InputError(file.string() + ": others may read the password; chmod 600 first");
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  if (line.empty()) throw InputError(file.string() + ": its first line is to be the password; it is empty");
-  return line;
-}
-
 std::string percent(const std::string& text) {
   static constexpr char kHex[] = "0123456789ABCDEF";
   std::string out;
@@ -109,7 +96,7 @@ std::string connection_text(const CentralAddress& address) {
     if (given.contains(name)) return;
     url += (url.find('?') == std::string::npos ? "?" : "&") + name + "=" + value;
   };
-  if (!address.password_file.empty()) add("password", percent(password_of(address.password_file)));
+  if (!address.password_file.empty()) add("password", percent(read_password_file(address.password_file)));
   if (leaves_this_machine(given)) {
     add("sslmode", kStrong);
     add("gssencmode", "disable");  // encryption by Kerberos would pass by the certificate
