@@ -157,7 +157,7 @@ void write_certificates_csv(const std::vector<ExportedCertificate>& certificates
   }
 }
 
-nlohmann::ordered_json certificates_json(const std::vector<ExportedCertificate>& certificates) {
+std::string certificates_json(const std::vector<ExportedCertificate>& certificates) {
   CertificateJson all = CertificateJson::array();
   for (const ExportedCertificate& one : certificates) {
     CertificateJson object = CertificateJson::object();
@@ -169,7 +169,7 @@ nlohmann::ordered_json certificates_json(const std::vector<ExportedCertificate>&
     for (const CertifiedBy& by : one.standing.attempts) object["attempt_uuids"].push_back(by.uuid);
     all.push_back(std::move(object));
   }
-  return all;
+  return all.dump(-1, ' ', false, CertificateJson::error_handler_t::replace);
 }
 
 std::vector<XapiSubject> certificate_subjects(const ExportedCertificate& one, const XapiSetting& setting) {

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "trainees/exchange/export/export_choice.h"
 #include "trainees/exchange/export/xapi.h"
 #include "trainees/records/certificate_standing.h"
@@ -31,8 +29,8 @@ std::vector<ExportedCertificate> chosen_certificates(Database& database, const E
 /// One line a certificate, as the other tables: docs/exports.md.
 void write_certificates_csv(const std::vector<ExportedCertificate>& certificates, std::ostream& out);
 
-/// The same fields, an object each.
-nlohmann::ordered_json certificates_json(const std::vector<ExportedCertificate>& certificates);
+/// The same fields as a JSON array of an object each.
+std::string certificates_json(const std::vector<ExportedCertificate>& certificates);
 
 /// What a record store keeps of a certificate. Statements never change once they are sent, so what happens to a
 /// certificate is a statement of its own: "earned"; "questioned" while it is in question; one that voids "earned" when

@@ -142,7 +142,7 @@ void write_json(Database& database, const ExportChoice& choice, std::ostream& ou
     before = ",\n";
   }
   out << "\n],\"notes\":" << dumped_table(trainee_notes(connection, choice))
-      << ",\"certificates\":" << dumped_table(certificates_json(chosen_certificates(database, choice))) << "}\n";
+      << ",\"certificates\":" << certificates_json(chosen_certificates(database, choice)) << "}\n";
 }
 
 }  // namespace trocar
