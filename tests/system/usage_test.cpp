@@ -23,7 +23,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
         "--preset"}},
       {"score", {"--rubric", "--jigsaws", "--db", "--json"}},
       {"export",
-       {"csv", "json", "xapi", "jigsaws", "--out", "--trainee", "--group", "--exercise", "--home-page", "--cmi5",
+       {"csv", "json", "xapi", "traces", "--out", "--trainee", "--group", "--exercise", "--home-page", "--cmi5",
         "--db"}},
       {"demo", {"--headless", "--out", "--organ", "--exercise", "--level", "--video"}},
       {"bench", {"--organ", "--json"}},

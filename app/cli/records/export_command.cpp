@@ -54,12 +54,6 @@ std::string file_name_of(const std::string& text) {
   return name;
 }
 
-char skill_of(const std::string& hand) {
-  if (hand == "expert") return 'E';
-  if (hand == "intermediate") return 'I';
-  return hand == "novice" ? 'N' : 'X';
-}
-
 /// The recording that an attempt was graded from. @throws InputError: none, or another one.
 Recording recording_of(const AttemptResult& attempt) {
   if (attempt.recording_path.empty()) throw InputError("it was not recorded");
@@ -87,22 +81,6 @@ int each_recording(Database& database, const ExportChoice& choice, std::ostream&
   return written;
 }
 
-int write_jigsaws(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
-  std::map<std::string, std::string> meta;
-  const int written =
-      each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
-        const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-        const auto window = graded_window(trace, recording.events);
-        const std::string text = jigsaws_text(window ? cut_trace(trace, window->first, window->second) : trace);
-        const std::string task = file_name_of(attempt.exercise_id);
-        const JigsawsTrial trial{task + "_" + attempt.uuid, skill_of(attempt.hand)};
-        folder.file(task + "/kinematics/AllGestures/" + trial.name + ".txt") << text;
-        meta[task] += jigsaws_meta_line(trial);
-      });
-  for (const auto& [task, lines] : meta) folder.file(task + "/meta_file_" + task + ".txt") << lines;
-  return written;
-}
-
 /// All that a score is made from, for another program to make it again.
 int write_traces(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
   return each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
@@ -122,8 +100,8 @@ int write_traces(Database& database, const ExportChoice& choice, PendingExport& 
 
 void check_options(const ExportOptions& options) {
   const std::string& f = options.format;
-  if (f != "csv" && f != "json" && f != "xapi" && f != "jigsaws" && f != "traces")
-    throw InputError("export " + f + ": csv, json, xapi, jigsaws and traces are known");
+  if (f != "csv" && f != "json" && f != "xapi" && f != "traces")
+    throw InputError("export " + f + ": csv, json, xapi and traces are known");
   if (f != "xapi" && (!options.home_page.empty() || !options.cmi5.empty()))
     throw InputError("--home-page and --cmi5 belong to xapi");
   if (!options.home_page.empty() && !options.cmi5.empty())
@@ -171,7 +149,6 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   if (options.format == "csv") write_csv_files(database, choice, pending);
   if (options.format == "json") write_json(database, choice, pending.file());
   if (options.format == "xapi") write_statements(options, database, choice, pending.file());
-  if (options.format == "jigsaws") attempts = static_cast<std::size_t>(write_jigsaws(database, choice, pending, err));
   if (options.format == "traces") attempts = static_cast<std::size_t>(write_traces(database, choice, pending, err));
   pending.commit();
   if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
@@ -209,14 +186,13 @@ int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
 void add_export(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ExportOptions>();
   ExportOptions& o = *given;
-  CLI::App* command = add_command(
-      parent, "export", "Attempts for other programs: tables, one document, xAPI statements, kinematics, traces",
-      chosen, [given] { return export_command(*given, std::cout, std::cerr); });
-  command->add_option("format", o.format, "csv, json, xapi, jigsaws or traces")
+  CLI::App* command =
+      add_command(parent, "export", "Attempts for other programs: tables, one document, xAPI statements, traces",
+                  chosen, [given] { return export_command(*given, std::cout, std::cerr); });
+  command->add_option("format", o.format, "csv, json, xapi or traces")
       ->required()
-      ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws", "traces"}));
-  command->add_option("--out", o.out, "Folder (csv, jigsaws, traces) or file (json, xapi) that does not exist yet")
-      ->required();
+      ->check(CLI::IsMember({"csv", "json", "xapi", "traces"}));
+  command->add_option("--out", o.out, "Folder (csv, traces) or file (json, xapi) that does not exist yet")->required();
   add_export_filter(*command, o.filter);
   command->add_option("--home-page", o.home_page,
                       "xapi: URL of who runs the simulator, of which the trainees' UUIDs are accounts");

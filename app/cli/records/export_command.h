@@ -13,8 +13,8 @@
 namespace trocar {
 
 struct ExportOptions {
-  std::string format;         ///< csv, json, xapi or jigsaws
-  std::filesystem::path out;  ///< folder of csv and jigsaws, else a file; must not exist
+  std::string format;         ///< csv, json, xapi or traces
+  std::filesystem::path out;  ///< folder of csv and traces, else a file; must not exist
   ExportFilter filter = {};
   std::filesystem::path database;   ///< empty: the default path
   std::string home_page = {};       ///< xapi: of the actors; empty: XapiSetting's
