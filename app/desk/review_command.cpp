@@ -112,7 +112,7 @@ std::unique_ptr<ReplicaKeeper> keeper_of(const ReviewServeOptions& options, cons
                                          const std::function<void(const std::string&)>& log, std::ostream& err) {
   if (options.from.empty()) return nullptr;
   KeeperOptions kept;
-  kept.central = {options.from, options.password_file};
+  kept.central = {options.from, options.password_file, options.weak_tls};
   kept.open = desk_opener(file);
   kept.station_name = ("desk " + host_name()).substr(0, 64);
   kept.recordings = options.recordings;
@@ -308,6 +308,8 @@ void add_review_serve(CLI::App& parent, CommandAction& chosen) {
   CLI::Option* password = serve->add_option("--password-file", o.password_file,
                                             "First line: the password of that database (else PGPASSWORD, ~/.pgpass)");
   password->needs(from);
+  serve->add_flag("--allow-weak-tls", o.weak_tls, "Let that address have an sslmode that does not check who answers")
+      ->needs(from);
   serve->add_flag("--recordings", o.recordings, "Fetch the recordings that stations pushed, too")->needs(from);
 }
 

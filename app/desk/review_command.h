@@ -17,6 +17,7 @@ struct ReviewServeOptions {
   std::vector<std::string> names = {};               ///< more names that it goes by
   std::string from = {};  ///< address of a central database: its record instead of this station's
   std::filesystem::path password_file = {};
+  bool weak_tls = false;    ///< of the central database's address
   bool recordings = false;  ///< fetches recordings too, with `from`
   bool demo = false;        ///< the invented cohort, made when it is not there yet
 };

@@ -86,7 +86,8 @@ const std::vector<Territory>& territories() {
        "cryptography stays in sources of trainees and of the digests"},
       {"^cairo|^pango/|^librsvg/", "^trainees/desk/print/.*\\.cpp$",
        "PDF is written in sources of trainees/desk/print"},
-      {"^pqxx", "^trainees/exchange/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/exchange/sync"},
+      {"^(pqxx|libpq)", "^trainees/exchange/sync/.*\\.cpp$", "PostgreSQL stays in sources of trainees/exchange/sync"},
+      {"^curl/", "^trainees/exchange/lrs/.*\\.cpp$", "the web client stays in sources of trainees/exchange/lrs"},
       {"^hidapi", "^app/window/input/.*\\.cpp$", "HID stays in sources of app/window/input"},
   };
   return table;

@@ -18,19 +18,14 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFormat = "trocar-head-1";
 constexpr std::size_t kShown = 16;
 
-struct Witness {
-  std::int64_t position = 0;
-  std::string row_hash, utc, key, signature;
-};
-
-Witness read_witness(const fs::path& file) {
+SignedHead read_witness(const fs::path& file) {
   std::ifstream in(file);
+  if (!in) throw InputError(file.string() + ": the witness cannot be read: is it there?");
   try {
     const Json json = Json::parse(in);
     if (json.at("format") != kFormat) throw InputError(file.string() + ": is no head of an audit trail");
-    Witness out{json.at("position"), json.at("row_hash"), json.at("utc"), json.at("key"), json.at("signature")};
-    if (!out.key.empty() && !signature_holds(out.key, head_text(out.row_hash), out.signature))
-      throw InputError(file.string() + ": was changed: its signature does not hold");
+    SignedHead out{json.at("position"), json.at("row_hash"), json.at("utc"), json.at("key"), json.at("signature")};
+    if (!head_holds(out)) throw InputError(file.string() + ": was changed: its signature does not hold");
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string() + ": is no head of an audit trail: " + error.what());
@@ -39,31 +34,40 @@ Witness read_witness(const fs::path& file) {
 
 }  // namespace
 
-std::string exported_head(const Database& database) {
+SignedHead newest_head(const Database& database) {
   sql::Statement row(database.connection(),
                      "SELECT position, row_hash, utc, signature FROM audit ORDER BY position DESC LIMIT 1");
   row.step();
   const auto keys = station_keys(database);
   const bool with_key = !keys.empty() && !row.text(3).empty();
-  return Json{{"format", kFormat},
-              {"position", row.integer(0)},
-              {"row_hash", row.text(1)},
-              {"utc", row.text(2)},
-              {"key", with_key ? keys.back().public_key : ""},
-              {"signature", row.text(3)}}
+  return {row.integer(0), row.text(1), row.text(2), with_key ? keys.back().public_key : "", row.text(3)};
+}
+
+bool head_holds(const SignedHead& head) {
+  return head.key.empty() || signature_holds(head.key, head_text(head.row_hash), head.signature);
+}
+
+std::string check_head(const Database& database, const SignedHead& head, const std::string& from) {
+  const std::string known = audit_hash(database.connection(), head.position);
+  const std::string entry = "entry " + std::to_string(head.position) + " of " + head.utc;
+  if (known == head.row_hash) return "";
+  if (known.empty())
+    return "witness " + from + ": the newest entries are missing, " + entry +
+           " was there: an older copy was put back, or the end was cut off";
+  return "witness " + from + ": " + entry + " is another: the record was rewritten, or is another's";
+}
+
+std::string exported_head(const Database& database) {
+  const SignedHead head = newest_head(database);
+  return Json{{"format", kFormat}, {"position", head.position}, {"row_hash", head.row_hash},
+              {"utc", head.utc},   {"key", head.key},           {"signature", head.signature}}
              .dump(2) +
          "\n";
 }
 
 std::vector<std::string> check_witness(const Database& database, const fs::path& file) {
-  const Witness witness = read_witness(file);
-  const std::string known = audit_hash(database.connection(), witness.position);
-  const std::string entry = "entry " + std::to_string(witness.position) + " of " + witness.utc;
-  if (known == witness.row_hash) return {};
-  if (known.empty())
-    return {"witness " + file.string() + ": the newest entries are missing, " + entry +
-            " was there: an older copy was put back, or the end was cut off"};
-  return {"witness " + file.string() + ": " + entry + " is another: the record was rewritten, or is another's"};
+  const std::string problem = check_head(database, read_witness(file), file.string());
+  return problem.empty() ? std::vector<std::string>{} : std::vector<std::string>{problem};
 }
 
 std::vector<AnnouncedKey> station_keys(const Database& database) { return announced_keys(database.connection()); }

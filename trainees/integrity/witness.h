@@ -2,6 +2,7 @@
 // rewritten as a whole, every hash, anchor and key of it. Thread: that of the Database.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +11,19 @@
 #include "trainees/store/database.h"
 
 namespace trocar {
+
+/// The newest entry of a trail, as it can be kept elsewhere; key and signature are "" where the station has no key.
+struct SignedHead {
+  std::int64_t position = 0;
+  std::string row_hash = {}, utc = {}, key = {}, signature = {};
+};
+SignedHead newest_head(const Database& database);
+
+/// Whether the head is what its key signed; true where there is none.
+bool head_holds(const SignedHead& head);
+
+/// Why the trail is not the one that the head was taken of; "" when it is. @param from where the head was kept.
+std::string check_head(const Database& database, const SignedHead& head, const std::string& from);
 
 /// The newest entry as JSON: {"format", "position", "row_hash", "utc", "key", "signature"}; the last two are "" where
 /// the station has no key.

@@ -8,10 +8,12 @@
 
 #include "app/cli/command.h"
 #include "app/cli/progress_display.h"
+#include "app/cli/records/central_command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
 #include "app/session/keeping/recording_check.h"
 #include "haptics/input_error.h"
+#include "trainees/exchange/sync/synchronise.h"
 #include "trainees/files/size_text.h"
 #include "trainees/files/write_file.h"
 #include "trainees/integrity/audit.h"
@@ -37,6 +39,12 @@ std::string key_since(const Database& database) {
   return ", key " + key_words(keys.back().public_key) + " since entry " + std::to_string(keys.back().position);
 }
 
+std::vector<std::string> told_by_witness(const Database& database, const DbOptions& options) {
+  if (options.witness.empty()) return {};
+  if (options.witness.find("://") == std::string::npos) return check_witness(database, options.witness);
+  return check_central_witness(database, {options.witness, options.password_file, options.weak_tls});
+}
+
 }  // namespace
 
 int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
@@ -52,8 +60,7 @@ int db_check(const DbOptions& options, std::ostream& out, std::ostream& err) {
     };
     for (const std::string& problem : check_by_recordings(database, {0, going})) problems.push_back(problem);
   }
-  if (!options.witness.empty())
-    for (const std::string& problem : check_witness(database, options.witness)) problems.push_back(problem);
+  for (const std::string& problem : told_by_witness(database, options)) problems.push_back(problem);
   const std::vector<std::string> remarks = audit_remarks(database.connection());
   if (options.json) {
     out << problems_json(database, problems, remarks);
@@ -139,7 +146,10 @@ void add_db_upkeep(CLI::App& parent, CommandAction& chosen) {
                   chosen, [given] { return db_check(*given, std::cout, std::cerr); });
   check->add_flag("--json", o.json, "As JSON");
   check->add_flag("--quick", o.quick, "Recordings by their digests, not graded again");
-  check->add_option("--witness", o.witness, "A head that 'db head --export' wrote before")->check(CLI::ExistingFile);
+  check->add_option("--witness", o.witness,
+                    "A head that 'db head --export' wrote before, or postgresql://USER@HOST/DATABASE of a central"
+                    " database");
+  add_central_access(*check, o.password_file, o.weak_tls);
   CLI::App* backup = add_command(parent, "backup", "Consistent copy, recordings included", chosen,
                                  [given] { return db_backup(*given, std::cout, std::cerr); });
   backup->add_option("-o,--out", o.output, "File (default: beside the database)")->check(writable_path());

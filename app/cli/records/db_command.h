@@ -8,14 +8,16 @@
 namespace trocar {
 
 struct DbOptions {
-  std::filesystem::path database;   ///< empty: the default path
-  std::filesystem::path output;     ///< of backup; empty: DATABASE.TIME.backup beside it
-  bool json = false;                ///< of check
-  std::string rubric{};             ///< of rubric: beginning of its sha256
-  bool leave_recordings = false;    ///< of backup
-  bool quick = false;               ///< of check: recordings by their digests alone
-  std::filesystem::path witness{};  ///< of check: a head that was exported before
-  bool renew = false;               ///< of key
+  std::filesystem::path database;         ///< empty: the default path
+  std::filesystem::path output;           ///< of backup; empty: DATABASE.TIME.backup beside it
+  bool json = false;                      ///< of check
+  std::string rubric{};                   ///< of rubric: beginning of its sha256
+  bool leave_recordings = false;          ///< of backup
+  bool quick = false;                     ///< of check: recordings by their digests alone
+  std::string witness{};                  ///< of check: file of a head that was exported before, or address of a centre
+  std::filesystem::path password_file{};  ///< of check: for the centre
+  bool weak_tls = false;                  ///< of check: likewise
+  bool renew = false;                     ///< of key
 };
 
 /// File, schema with its triggers, references, hash chain, audit trail and its signatures, anchor, rubrics; each

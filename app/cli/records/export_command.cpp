@@ -12,6 +12,7 @@
 
 #include "app/cli/attempts/attempt_json.h"
 #include "app/cli/command.h"
+#include "app/cli/records/lrs_command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
 #include "app/session/recording/recording_reader.h"
@@ -47,27 +48,10 @@ std::optional<double> pass_mark(const std::string& toml, const std::string& leve
   }
 }
 
-/// Parsing a ruleset costs more than a statement: each is parsed once a level.
-PassMark remembered_pass_mark() {
-  using Ruleset = std::pair<std::string, std::string>;
-  return
-      [known = std::map<Ruleset, std::optional<double>>()](const std::string& toml, const std::string& level) mutable {
-        const auto [at, fresh] = known.try_emplace({toml, level});
-        if (fresh) at->second = pass_mark(toml, level);
-        return at->second;
-      };
-}
-
 std::string file_name_of(const std::string& text) {
   std::string name;
   for (const char c : text) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
   return name;
-}
-
-char skill_of(const std::string& hand) {
-  if (hand == "expert") return 'E';
-  if (hand == "intermediate") return 'I';
-  return hand == "novice" ? 'N' : 'X';
 }
 
 /// The recording that an attempt was graded from. @throws InputError: none, or another one.
@@ -97,22 +81,6 @@ int each_recording(Database& database, const ExportChoice& choice, std::ostream&
   return written;
 }
 
-int write_jigsaws(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
-  std::map<std::string, std::string> meta;
-  const int written =
-      each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
-        const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-        const auto window = graded_window(trace, recording.events);
-        const std::string text = jigsaws_text(window ? cut_trace(trace, window->first, window->second) : trace);
-        const std::string task = file_name_of(attempt.exercise_id);
-        const JigsawsTrial trial{task + "_" + attempt.uuid, skill_of(attempt.hand)};
-        folder.file(task + "/kinematics/AllGestures/" + trial.name + ".txt") << text;
-        meta[task] += jigsaws_meta_line(trial);
-      });
-  for (const auto& [task, lines] : meta) folder.file(task + "/meta_file_" + task + ".txt") << lines;
-  return written;
-}
-
 /// All that a score is made from, for another program to make it again.
 int write_traces(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
   return each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
@@ -132,8 +100,8 @@ int write_traces(Database& database, const ExportChoice& choice, PendingExport& 
 
 void check_options(const ExportOptions& options) {
   const std::string& f = options.format;
-  if (f != "csv" && f != "json" && f != "xapi" && f != "jigsaws" && f != "traces")
-    throw InputError("export " + f + ": csv, json, xapi, jigsaws and traces are known");
+  if (f != "csv" && f != "json" && f != "xapi" && f != "traces")
+    throw InputError("export " + f + ": csv, json, xapi and traces are known");
   if (f != "xapi" && (!options.home_page.empty() || !options.cmi5.empty()))
     throw InputError("--home-page and --cmi5 belong to xapi");
   if (!options.home_page.empty() && !options.cmi5.empty())
@@ -153,6 +121,23 @@ void write_statements(const ExportOptions& options, Database& database, const Ex
 
 }  // namespace
 
+PassMark remembered_pass_mark() {
+  using Ruleset = std::pair<std::string, std::string>;
+  return
+      [known = std::map<Ruleset, std::optional<double>>()](const std::string& toml, const std::string& level) mutable {
+        const auto [at, fresh] = known.try_emplace({toml, level});
+        if (fresh) at->second = pass_mark(toml, level);
+        return at->second;
+      };
+}
+
+void add_export_filter(CLI::App& command, ExportFilter& filter) {
+  command.add_option("--trainee", filter.trainee, "One trainee only");
+  command.add_option("--group", filter.group, "One group only");
+  command.add_option("--exercise", filter.exercise, "One exercise only, by its id");
+  command.add_option("--attempt", filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
+}
+
 int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err) {
   check_options(options);
   const bool folder = options.format != "json" && options.format != "xapi";
@@ -164,7 +149,6 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   if (options.format == "csv") write_csv_files(database, choice, pending);
   if (options.format == "json") write_json(database, choice, pending.file());
   if (options.format == "xapi") write_statements(options, database, choice, pending.file());
-  if (options.format == "jigsaws") attempts = static_cast<std::size_t>(write_jigsaws(database, choice, pending, err));
   if (options.format == "traces") attempts = static_cast<std::size_t>(write_traces(database, choice, pending, err));
   pending.commit();
   if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";
@@ -202,22 +186,19 @@ int kinematics_command(const KinematicsOptions& options, std::ostream& out) {
 void add_export(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<ExportOptions>();
   ExportOptions& o = *given;
-  CLI::App* command = add_command(
-      parent, "export", "Attempts for other programs: tables, one document, xAPI statements, kinematics, traces",
-      chosen, [given] { return export_command(*given, std::cout, std::cerr); });
-  command->add_option("format", o.format, "csv, json, xapi, jigsaws or traces")
+  CLI::App* command =
+      add_command(parent, "export", "Attempts for other programs: tables, one document, xAPI statements, traces",
+                  chosen, [given] { return export_command(*given, std::cout, std::cerr); });
+  command->add_option("format", o.format, "csv, json, xapi or traces")
       ->required()
-      ->check(CLI::IsMember({"csv", "json", "xapi", "jigsaws", "traces"}));
-  command->add_option("--out", o.out, "Folder (csv, jigsaws, traces) or file (json, xapi) that does not exist yet")
-      ->required();
-  command->add_option("--trainee", o.filter.trainee, "One trainee only");
-  command->add_option("--group", o.filter.group, "One group only");
-  command->add_option("--exercise", o.filter.exercise, "One exercise only, by its id");
-  command->add_option("--attempt", o.filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
+      ->check(CLI::IsMember({"csv", "json", "xapi", "traces"}));
+  command->add_option("--out", o.out, "Folder (csv, traces) or file (json, xapi) that does not exist yet")->required();
+  add_export_filter(*command, o.filter);
   command->add_option("--home-page", o.home_page,
                       "xapi: URL of who runs the simulator, of which the trainees' UUIDs are accounts");
   command->add_option("--cmi5", o.cmi5, "xapi: JSON with the data of a cmi5 launch, which the newest attempt answers");
   command->add_option("--db", o.database, "Database file");
+  add_lrs(parent, chosen);
 }
 
 }  // namespace trocar

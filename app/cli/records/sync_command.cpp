@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/records/central_command.h"
 #include "app/cli/records/open_database.h"
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/synchronise.h"
@@ -46,7 +47,7 @@ void print_pulled(const PullReport& pulled, std::ostream& out) {
 }
 
 int exchange(Database& database, const SyncOptions& options, std::ostream& out, std::ostream& err) {
-  PushOptions push{{options.to, options.password_file},
+  PushOptions push{{options.to, options.password_file, options.weak_tls},
                    options.station,
                    options.new_station,
                    options.with_identity,
@@ -55,6 +56,7 @@ int exchange(Database& database, const SyncOptions& options, std::ostream& out, 
     if (position < head) err << "pushed up to " << position << " of " << head << '\n';
   };
   const PushReport pushed = push_to_central(database, push);
+  for (const std::string& remark : pushed.remarks) err << "remark: " << remark << '\n';
   const PullReport pulled = pull_from_central(database, push.central, options.apply_erasures);
   if (options.json) {
     const Json result{{"station", {{"uuid", pushed.station}, {"name", pushed.name}}},
@@ -79,7 +81,8 @@ int exchange(Database& database, const SyncOptions& options, std::ostream& out, 
 }
 
 int replicate(Database& database, const SyncOptions& options, std::ostream& out) {
-  const PullReport pulled = replicate_central(database, {{options.from, options.password_file}, options.recordings});
+  const PullReport pulled =
+      replicate_central(database, {{options.from, options.password_file, options.weak_tls}, options.recordings});
   if (options.json)
     out << pulled_json(pulled).dump(2) << '\n';
   else
@@ -92,7 +95,7 @@ int link(const SyncLinkOptions& options, bool linked, std::ostream& out, std::os
   const std::string author =
       options.author.empty() ? (user != nullptr && *user != '\0' ? user : "unknown") : options.author;
   const LinkedPeople people =
-      link_people({options.at, options.password_file}, options.one, options.other, linked, author);
+      link_people({options.at, options.password_file, options.weak_tls}, options.one, options.other, linked, author);
   out << people.one << ' ' << people.other << '\n';
   err << (linked ? "They are one person now" : "They are two people again")
       << ", for every desk and station from its next sync on.\n";
@@ -135,7 +138,7 @@ void add_links(CLI::App& sync, CommandAction& chosen) {
     command->add_option("one", o.one, "CODE@STATION, or the trainee's UUID")->required();
     command->add_option("other", o.other, "Likewise")->required();
     command->add_option("--at", o.at, "postgresql://USER@HOST/DATABASE")->required();
-    command->add_option("--password-file", o.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+    add_central_access(*command, o.password_file, o.weak_tls);
     command->add_option("--author", o.author, "Who says so (default: $USER)");
   }
 }
@@ -154,7 +157,7 @@ void add_sync(CLI::App& parent, CommandAction& chosen) {
   CLI::Option* from = sync->add_option(
       "--from", o.from, "postgresql://USER@HOST/DATABASE: fetch what all stations pushed into --db FILE");
   to->excludes(from);
-  sync->add_option("--password-file", o.password_file, "First line: the password (else PGPASSWORD, ~/.pgpass)");
+  add_central_access(*sync, o.password_file, o.weak_tls);
   sync->add_option("--station", o.station, "Name of this station (default: the host's)")->needs(to);
   sync->add_flag("--new-station", o.new_station,
                  "Go on under a new UUID: an older copy was put back, or the database was copied")
@@ -165,6 +168,7 @@ void add_sync(CLI::App& parent, CommandAction& chosen) {
   sync->add_flag("--json", o.json, "As JSON");
   sync->add_flag("--recordings", o.recordings, "Also the recordings of attempts; motion tells who moved");
   add_links(*sync, chosen);
+  add_central(*sync, chosen);
   sync->callback([given, sync, &chosen] {
     if (sync->get_subcommands().empty()) chosen = [given] { return sync_command(*given, std::cout, std::cerr); };
   });

@@ -17,6 +17,7 @@ struct SyncOptions {
   bool with_identity = false;
   bool apply_erasures = false;
   bool recordings = false;  ///< also the recordings of attempts
+  bool weak_tls = false;    ///< the address may have an sslmode that does not check who answers
   bool json = false;
 };
 
@@ -24,6 +25,7 @@ struct SyncLinkOptions {
   std::string at{}, one{}, other{};  ///< address of the central database; CODE@STATION or a trainee's UUID
   std::filesystem::path password_file{};
   std::string author{};  ///< empty: $USER
+  bool weak_tls = false;
 };
 
 /// Two trainees are one person, or no longer are. @return exit code 0

@@ -8,7 +8,7 @@ std::string html_of(const CertificateSheet& sheet) {
   const auto p = [](const char* kind, const std::string& words) {
     return words.empty() ? "" : std::string("<p class=\"") + kind + "\">" + escape_html(words) + "</p>";
   };
-  std::string out = html_begin("Certificate: " + sheet.code) + "<section class=\"sheet\">";
+  std::string out = html_begin(sheet.file_title()) + "<section class=\"sheet\">";
   if (!sheet.withdrawn.empty()) out += p("void", "WITHDRAWN " + sheet.withdrawn);
   if (!sheet.in_question.empty()) out += p("void", "IN QUESTION: " + sheet.in_question);
   if (sheet.demo) out += p("ribbon", "DEMO: an invented trainee. Nothing here is a record.");

@@ -14,7 +14,7 @@ constexpr double kRow = 10.4, kRowSize = 7.2, kCodeSize = 6.6, kFactStep = 11.6,
 class CertificatePage {
  public:
   explicit CertificatePage(const CertificateSheet& sheet)
-      : sheet_(sheet), pages_("Certificate: " + sheet.code, sheet.newest_utc) {}
+      : sheet_(sheet), pages_(sheet.file_title(), sheet.newest_utc) {}
 
   std::string draw() {
     pages_.add();

@@ -110,6 +110,11 @@ struct CertificateSheet {
   std::string in_question = {};  ///< why it may not stand; "" while all that it stands on holds
   std::string newest_utc = {};
   bool demo = false;
+
+  /// Of the file, in its properties: whose it is, in their own script.
+  std::string file_title() const {
+    return "Certificate: " + holder + (holder == code ? "" : ", trainee " + code) + ", " + skill;
+  }
 };
 
 /// @throws EnvironmentError: a font is missing. std::invalid_argument: a chart that is not of this program's making.

@@ -11,79 +11,6 @@
 namespace trocar {
 namespace {
 
-/// The instrument at one moment of the layout.
-struct Moment {
-  Vec3 p = Vec3::Zero();
-  Mat3 R = Mat3::Identity();
-  double angle = 0;
-};
-
-void check_trace(const Trace& trace) {
-  if (trace.samples.size() < 2) throw InputError("a trace of fewer than two samples has no motion to export");
-  double before = -HUGE_VAL;
-  for (const TraceSample& s : trace.samples) {
-    const bool finite =
-        std::isfinite(s.t_s) && s.tip_T.allFinite() && s.shaft_T.allFinite() && std::isfinite(s.jaw_opening_m);
-    if (!finite || s.shaft_T.norm() < 0.5) {
-      throw InputError("the trace has values that are not finite at " + std::to_string(s.t_s) + " s");
-    }
-    if (s.t_s <= before) throw InputError("the trace's times do not increase at " + std::to_string(s.t_s) + " s");
-    before = s.t_s;
-  }
-}
-
-/// Turns the frame so that z becomes the shaft, by the shortest way.
-Mat3 carried(const Mat3& R, const Vec3& shaft) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(R.col(2), shaft);
-  return (turn * Eigen::Quaterniond(R)).normalized().toRotationMatrix();
-}
-
-/// Moments at 30 Hz from the first sample on, linear between neighbours.
-std::vector<Moment> moments(const Trace& trace) {
-  const std::vector<TraceSample>& s = trace.samples;
-  const double span = s.back().t_s - s.front().t_s;
-  const auto count = static_cast<std::size_t>(std::floor(span * kJigsawsRateHz + 1e-6)) + 1;
-  std::vector<Moment> out(count);
-  std::size_t i = 0;
-  Mat3 frame = Mat3::Identity();
-  for (std::size_t k = 0; k < count; ++k) {
-    const double t = s.front().t_s + static_cast<double>(k) / kJigsawsRateHz;
-    while (i + 2 < s.size() && s[i + 1].t_s <= t) ++i;
-    const double share = std::clamp((t - s[i].t_s) / (s[i + 1].t_s - s[i].t_s), 0.0, 1.0);
-    const auto between = [&](const auto& a, const auto& b) { return (a + share * (b - a)).eval(); };
-    const Vec3 shaft = between(s[i].shaft_T, s[i + 1].shaft_T);
-    frame = carried(frame, shaft.norm() > 1e-9 ? Vec3(shaft.normalized()) : s[i].shaft_T);
-    const double opening = s[i].jaw_opening_m + share * (s[i + 1].jaw_opening_m - s[i].jaw_opening_m);
-    out[k] = {between(s[i].tip_T, s[i + 1].tip_T), frame,
-              2 * std::asin(std::clamp(opening / (2 * kJawLength), -1.0, 1.0))};
-  }
-  return out;
-}
-
-void put(std::string& line, double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value == 0 ? 0.0 : value).ptr;  // no -0
-  line += line.empty() ? "" : " ";
-  line.append(digits, end);
-}
-
-/// 19 columns; velocities by central difference, one-sided at the ends.
-std::string block(const std::vector<Moment>& path, std::size_t k) {
-  const std::size_t a = k > 0 ? k - 1 : 0, b = std::min(k + 1, path.size() - 1);
-  const double dt = static_cast<double>(b - a) / kJigsawsRateHz;
-  const Eigen::AngleAxisd turn(path[b].R * path[a].R.transpose());
-  const Vec3 v = b > a ? Vec3((path[b].p - path[a].p) / dt) : Vec3(Vec3::Zero());
-  const Vec3 w = b > a ? Vec3(turn.axis() * turn.angle() / dt) : Vec3(Vec3::Zero());
-  std::string line;
-  for (int i = 0; i < 3; ++i) put(line, path[k].p[i]);
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) put(line, path[k].R(row, column));
-  for (int i = 0; i < 3; ++i) put(line, v[i]);
-  for (int i = 0; i < 3; ++i) put(line, w[i]);
-  put(line, path[k].angle);
-  return line;
-}
-
 std::vector<double> numbers_of(std::string_view line, const std::string& name, int number) {
   std::vector<double> values;
   const char* at = line.data();
@@ -152,19 +79,6 @@ bool nothing_there(const double* c) {
 
 }  // namespace
 
-std::string jigsaws_text(const Trace& trace) {
-  check_trace(trace);
-  const std::vector<Moment> path = moments(trace);
-  std::string nothing;
-  for (int i = 0; i < kJigsawsBlock; ++i) put(nothing, 0);
-  std::string out;
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    const std::string hand = block(path, k);
-    out += nothing + " " + hand + " " + nothing + " " + hand + "\n";
-  }
-  return out;
-}
-
 Trace parse_jigsaws(std::string_view text, const std::string& name, JigsawsSide side) {
   Trace trace;
   trace.rate_hz = kJigsawsRateHz;
@@ -190,15 +104,6 @@ Trace parse_jigsaws(std::string_view text, const std::string& name, JigsawsSide 
   }
   if (trace.samples.size() < 2) throw InputError(name + ": has fewer than two lines of 76 numbers");
   return trace;
-}
-
-std::string jigsaws_meta_line(const JigsawsTrial& trial) {
-  int sum = 0;
-  const std::array<int, 6> ratings = trial.ratings.value_or(std::array<int, 6>{});
-  for (const int rating : ratings) sum += rating;
-  std::string line = trial.name + "\t" + trial.skill + "\t" + std::to_string(sum);
-  for (const int rating : ratings) line += "\t" + std::to_string(rating);
-  return line + "\n";
 }
 
 std::vector<Metric> kinematic_metrics(const Trace& given) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "trainees/exchange/export/certificate_export.h"
 #include "trainees/exchange/export/export_tables.h"
 #include "trainees/markup/csv.h"
 #include "trainees/store/sqlite_handle.h"
@@ -116,6 +117,7 @@ void write_csv_files(Database& database, const ExportChoice& choice, PendingExpo
   };
   write(attempts_table());
   for (const ExportTable& table : attempt_parts()) write(table);
+  write_certificates_csv(chosen_certificates(database, choice), folder.file("certificates.csv"));
 }
 
 void write_json(Database& database, const ExportChoice& choice, std::ostream& out) {
@@ -139,7 +141,8 @@ void write_json(Database& database, const ExportChoice& choice, std::ostream& ou
     out << before << dumped_table(attempt);
     before = ",\n";
   }
-  out << "\n],\"notes\":" << dumped_table(trainee_notes(connection, choice)) << "}\n";
+  out << "\n],\"notes\":" << dumped_table(trainee_notes(connection, choice))
+      << ",\"certificates\":" << certificates_json(chosen_certificates(database, choice)) << "}\n";
 }
 
 }  // namespace trocar

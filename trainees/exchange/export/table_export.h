@@ -11,11 +11,12 @@ namespace trocar {
 /// Of the JSON document and the columns of the CSV files: counts up when a field changes its meaning or goes.
 inline constexpr int kExportSchema = 2;
 
-/// attempts.csv, metrics.csv, subscores.csv, caps.csv, events.csv, notes.csv, signatures.csv, overrides.csv.
+/// attempts.csv, metrics.csv, subscores.csv, caps.csv, events.csv, notes.csv, signatures.csv, overrides.csv,
+/// certificates.csv.
 void write_csv_files(Database& database, const ExportChoice& choice, PendingExport& folder);
 
 /// {"schema": "trocar-export", "schema_version": 1, "filter": {...}, "attempts": [{..., "metrics": [...], ...}],
-/// "notes": [...]}
+/// "notes": [...], "certificates": [...]}
 void write_json(Database& database, const ExportChoice& choice, std::ostream& out);
 
 }  // namespace trocar

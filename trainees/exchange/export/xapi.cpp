@@ -18,19 +18,6 @@ using xapi::kOwn;
 
 std::string iri(std::string_view base, const std::string& rest) { return std::string(base) + rest; }
 
-/// A part of an IRI's path: everything but letters, digits and -._~ as %XX; bytes of UTF-8 stay.
-std::string segment(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte >= 0x80 || std::isalnum(byte) || c == '-' || c == '.' || c == '_' || c == '~';
-    char code[4];
-    std::snprintf(code, sizeof code, "%%%02X", byte);
-    out += plain ? std::string(1, c) : std::string(code);
-  }
-  return out.empty() ? "-" : out;
-}
-
 std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 bool graded(const AttemptResult& result) { return result.grade.score && std::isfinite(*result.grade.score); }
@@ -53,7 +40,9 @@ Json verb(const std::string& name) { return {{"id", iri(xapi::kVerbs, name)}, {"
 
 Json activity(const std::string& id) { return {{"objectType", "Activity"}, {"id", id}}; }
 
-std::string exercise_iri(const AttemptResult& result) { return iri(kOwn, "exercise/" + segment(result.exercise_id)); }
+std::string exercise_iri(const AttemptResult& result) {
+  return iri(kOwn, "exercise/" + xapi::path_part(result.exercise_id));
+}
 
 Json definition(const XapiAttempt& attempt) {
   const std::string name = attempt.title.empty() ? attempt.result.exercise_id : attempt.title;
@@ -62,7 +51,7 @@ Json definition(const XapiAttempt& attempt) {
 
 Json object(const XapiAttempt& attempt) {
   const AttemptResult& r = attempt.result;
-  Json out = activity(exercise_iri(r) + "/" + segment(r.exercise_version) + "/" + segment(r.level));
+  Json out = activity(exercise_iri(r) + "/" + xapi::path_part(r.exercise_version) + "/" + xapi::path_part(r.level));
   out["definition"] = definition(attempt);
   return out;
 }
@@ -152,7 +141,7 @@ Json context_of(const XapiAttempt& attempt, const XapiSetting& setting) {
   out["contextActivities"]["parent"] = Json::array({activity(exercise_iri(r))});
   if (!attempt.session_uuid.empty()) {
     out["contextActivities"]["grouping"] =
-        Json::array({activity(iri(kOwn, "session/" + segment(attempt.session_uuid)))});
+        Json::array({activity(iri(kOwn, "session/" + xapi::path_part(attempt.session_uuid)))});
   }
   if (!r.exercise_version.empty()) out["revision"] = r.exercise_version;
   out["platform"] = attempt.program.empty() ? std::string("Trocar") : "Trocar " + attempt.program;
@@ -217,6 +206,17 @@ std::string xapi_statement(const XapiAttempt& attempt, const XapiSetting& settin
                  {"result", std::move(result)},
                  {"context", context_of(attempt, setting)},
                  {"timestamp", attempt.finished_utc}});
+}
+
+XapiStatement voiding_statement(const std::string& id, const std::string& author, const std::string& utc,
+                                const XapiSetting& setting) {
+  const std::string own_id = named_uuid(id, iri(xapi::kVerbs, "voided"));
+  Json out = {{"id", own_id},
+              {"actor", account(setting.home_page, author.empty() ? "trocar" : author)},
+              {"verb", verb("voided")},
+              {"object", {{"objectType", "StatementRef"}, {"id", id}}}};
+  if (!utc.empty()) out["timestamp"] = utc;
+  return {own_id, dumped(out)};
 }
 
 std::vector<std::string> cmi5_statements(const XapiAttempt& attempt, const Cmi5Launch& launch) {

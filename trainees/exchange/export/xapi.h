@@ -53,6 +53,21 @@ std::string xapi_statement(const XapiAttempt& attempt, const XapiSetting& settin
 /// system's to say.
 std::vector<std::string> cmi5_statements(const XapiAttempt& attempt, const Cmi5Launch& launch);
 
+struct XapiStatement {
+  std::string id = {}, text = {};  ///< text: JSON in one line
+};
+
+/// Something of the record that a store keeps by at most one statement at a time: an attempt's outcome, a certificate.
+struct XapiSubject {
+  std::string about = {};                       ///< the same for as long as the record stands
+  std::optional<XapiStatement> statement = {};  ///< what holds now
+};
+
+/// Takes a statement back: the store shows it no longer as one that holds. @param author account of who did so; ""
+/// this program. @param utc when; "" left to the store.
+XapiStatement voiding_statement(const std::string& id, const std::string& author, const std::string& utc,
+                                const XapiSetting& setting);
+
 /// What breaks the standard in one statement, "PROPERTY: what" each; empty when it is sound.
 std::vector<std::string> xapi_problems(std::string_view statement);
 

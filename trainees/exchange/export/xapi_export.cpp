@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "haptics/input_error.h"
+#include "trainees/exchange/export/certificate_export.h"
 #include "trainees/exchange/export/xapi_terms.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/store/sqlite_handle.h"
@@ -13,14 +14,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Statements that are sound, one a line.
+/// @throws InputError.
+void require_sound(const std::string& statement, const std::string& about) {
+  const std::vector<std::string> problems = xapi_problems(statement);
+  if (!problems.empty()) throw InputError(about + ": its statement would break the standard: " + problems.front());
+}
+
+/// Statements, one a line.
 class StatementList {
  public:
   explicit StatementList(std::ostream& out) : out_(&out) { *out_ << '['; }
-  void add(const std::string& statement, const std::string& attempt) {
-    const std::vector<std::string> problems = xapi_problems(statement);
-    if (!problems.empty())
-      throw InputError("attempt " + attempt + ": its statement would break the standard: " + problems.front());
+  void add(const std::string& statement) {
     *out_ << (first_ ? "\n" : ",\n") << statement;
     first_ = false;
   }
@@ -63,16 +67,29 @@ XapiAttempt read_xapi_attempt(Database& database, std::int64_t row, const PassMa
   return attempt;
 }
 
-void write_xapi(Database& database, const ExportChoice& choice, const XapiSetting& setting, const PassMark& pass_mark,
-                std::ostream& out) {
+std::vector<XapiSubject> xapi_subjects(Database& database, const ExportChoice& choice, const XapiSetting& setting,
+                                       const PassMark& pass_mark) {
   if (!xapi::is_iri(setting.home_page)) {
     throw InputError("home page \"" + setting.home_page + "\": is no absolute URL such as https://hospital.example/");
   }
-  StatementList list(out);
+  std::vector<XapiSubject> all;
   for (const std::int64_t row : choice.attempts) {
     const XapiAttempt attempt = read_xapi_attempt(database, row, pass_mark);
-    list.add(xapi_statement(attempt, setting), attempt.result.uuid);
+    std::string text = xapi_statement(attempt, setting);
+    all.push_back({"attempt " + attempt.result.uuid, XapiStatement{json::parse(text)["id"], std::move(text)}});
   }
+  for (const ExportedCertificate& one : chosen_certificates(database, choice))
+    for (XapiSubject& subject : certificate_subjects(one, setting)) all.push_back(std::move(subject));
+  for (const XapiSubject& subject : all)
+    if (subject.statement) require_sound(subject.statement->text, subject.about);
+  return all;
+}
+
+void write_xapi(Database& database, const ExportChoice& choice, const XapiSetting& setting, const PassMark& pass_mark,
+                std::ostream& out) {
+  StatementList list(out);
+  for (const XapiSubject& subject : xapi_subjects(database, choice, setting, pass_mark))
+    if (subject.statement) list.add(subject.statement->text);
   list.end();
 }
 
@@ -82,7 +99,10 @@ void write_cmi5(Database& database, const ExportChoice& choice, const Cmi5Launch
     throw InputError("a cmi5 launch is of one trainee, but the attempts are of several: say which trainee");
   StatementList list(out);
   const XapiAttempt attempt = read_xapi_attempt(database, choice.attempts.back(), pass_mark);
-  for (const std::string& statement : cmi5_statements(attempt, launch)) list.add(statement, attempt.result.uuid);
+  for (const std::string& statement : cmi5_statements(attempt, launch)) {
+    require_sound(statement, "attempt " + attempt.result.uuid);
+    list.add(statement);
+  }
   list.end();
 }
 

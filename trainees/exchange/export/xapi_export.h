@@ -16,6 +16,11 @@ using PassMark = std::function<std::optional<double>(const std::string& toml, co
 /// @param row of a finished attempt. @throws InputError: there is none.
 XapiAttempt read_xapi_attempt(Database& database, std::int64_t row, const PassMark& pass_mark);
 
+/// What a record store is to know of the chosen attempts and of their people's certificates, in the order in which it
+/// is to be told. @throws InputError naming what it is about when a statement breaks the standard.
+std::vector<XapiSubject> xapi_subjects(Database& database, const ExportChoice& choice, const XapiSetting& setting,
+                                       const PassMark& pass_mark);
+
 /// One statement a line, in an array as a store takes it. @throws InputError naming the attempt when a statement breaks
 /// the standard.
 void write_xapi(Database& database, const ExportChoice& choice, const XapiSetting& setting, const PassMark& pass_mark,

@@ -1,6 +1,8 @@
 #include "trainees/exchange/export/xapi_terms.h"
 
+#include <cctype>
 #include <chrono>
+#include <cstdio>
 #include <regex>
 #include <string>
 
@@ -12,6 +14,18 @@ bool matches(std::string_view text, const std::regex& form) { return std::regex_
 int number(const std::csub_match& part) { return part.matched ? std::stoi(part.str()) : 0; }
 
 }  // namespace
+
+std::string path_part(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte >= 0x80 || std::isalnum(byte) || c == '-' || c == '.' || c == '_' || c == '~';
+    char code[4];
+    std::snprintf(code, sizeof code, "%%%02X", byte);
+    out += plain ? std::string(1, c) : std::string(code);
+  }
+  return out.empty() ? "-" : out;
+}
 
 bool is_uuid(std::string_view text) {
   static const std::regex kForm("[0-9A-Fa-f]{8}-[0-9A-Fa-f]{4}-[0-9A-Fa-f]{4}-[89abAB][0-9A-Fa-f]{3}-[0-9A-Fa-f]{12}");

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "trainees/exchange/sync/central_rights.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -236,7 +237,8 @@ std::vector<std::string> insert_central(CentralLink& link, const CarriedTable& t
   const auto added =
       link.run("INSERT INTO " + quoted(table.name) + " (" + listed(table, name_only) + ", \"station\") SELECT " +
                    listed(table, name_only) + ", $2 FROM json_to_recordset($1::json) AS r(" + listed(table, with_type) +
-                   ") ON CONFLICT DO NOTHING RETURNING " + quoted(table.columns.front().central),
+                   ") WHERE " + (has_digest(table) ? may_bring(table.name) : "true") +
+                   " ON CONFLICT DO NOTHING RETURNING " + quoted(table.columns.front().central),
                {json_rows(table, rows), station});
   std::vector<std::string> keys;
   for (const Values& row : added) keys.push_back(row.front().value_or(""));

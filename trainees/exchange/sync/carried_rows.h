@@ -50,7 +50,7 @@ void insert_local(sqlite3* connection, const CarriedTable& table, const Values& 
 
 std::string create_statement(const CarriedTable& table);
 
-/// Inserts what is not there yet. @returns column 0 of the rows that were not.
+/// Inserts what is not there yet and this login may bring. @returns column 0 of the rows that came in so.
 std::vector<std::string> insert_central(CentralLink& link, const CarriedTable& table, const std::vector<Values>& rows,
                                         const std::string& station);
 

@@ -1,11 +1,9 @@
 #include "trainees/exchange/sync/central_link.h"
 
-#include <sys/stat.h>
-
-#include <fstream>
 #include <pqxx/pqxx>
 
 #include "haptics/input_error.h"
+#include "trainees/exchange/sync/central_address.h"
 #include "trainees/exchange/sync/central_schema.h"
 #include "trainees/records/attempt_identity.h"
 
@@ -37,7 +35,8 @@ auto told(const char* doing, const Action& action) {
     throw EnvironmentError(std::string("central database: the connection was lost while it committed: ") +
                            one_line(error.what()) + "; the same command goes on, whichever way it ended");
   } catch (const pqxx::insufficient_privilege& error) {
-    throw EnvironmentError("central database: no permission: " + one_line(error.what()));
+    throw EnvironmentError("central database: no permission (is this login let in? trocar sync admit): " +
+                           one_line(error.what()));
   } catch (const pqxx::sql_error& error) {
     const std::string state = error.sqlstate().substr(0, 2);
     const std::string message = std::string("central database: ") + doing + ": " + one_line(error.what());
@@ -48,60 +47,7 @@ auto told(const char* doing, const Action& action) {
   }
 }
 
-std::string password_of(const std::filesystem::path& file) {
-  struct stat about {};
-  if (stat(file.c_str(), &about) != 0)
-    throw InputError(file.string() + ": the password cannot be read: there is no such file");
-  if ((about.st_mode & 077) != 0) throw InputError(file.string() + ": others may read the password; chmod 600 first");
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  if (line.empty()) throw InputError(file.string() + ": its first line is to be the password; it is empty");
-  return line;
-}
-
-std::string percent(const std::string& text) {
-  static constexpr char kHex[] = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += '%';
-    out += kHex[byte >> 4];
-    out += kHex[byte & 15];
-  }
-  return out;
-}
-
-void add_option(std::string& url, const std::string& name, const std::string& value) {
-  if (url.find("?" + name + "=") != std::string::npos || url.find("&" + name + "=") != std::string::npos) return;
-  url += (url.find('?') == std::string::npos ? "?" : "&") + name + "=" + value;
-}
-
 }  // namespace
-
-std::string connection_text(const CentralAddress& address) {
-  std::string url = address.url;
-  const std::size_t scheme = url.find("://");
-  if (!url.starts_with("postgresql://") && !url.starts_with("postgres://")) {
-    throw InputError("\"" + url +
-                     "\": an address begins with postgresql://, as postgresql://trocar@central.example/trocar");
-  }
-  const std::string place = url.substr(scheme + 3, url.find_first_of("/?", scheme + 3) - scheme - 3);
-  const std::size_t at = place.rfind('@');
-  const bool in_place = at != std::string::npos && place.substr(0, at).find(':') != std::string::npos;
-  if (in_place || url.find("password=") != std::string::npos) {
-    throw InputError(
-        "the address holds a password, which every process of this machine could read: use --password-file, ~/.pgpass "
-        "or"
-        " PGPASSWORD");
-  }
-  if (!address.password_file.empty()) add_option(url, "password", percent(password_of(address.password_file)));
-  add_option(url, "connect_timeout", "10");
-  add_option(url, "keepalives_idle", "20");
-  add_option(url, "tcp_user_timeout", "30000");
-  add_option(url, "application_name", "trocar");
-  return url;
-}
 
 struct CentralLink::Session {
   explicit Session(const std::string& text) : connection(text) {}
@@ -110,10 +56,14 @@ struct CentralLink::Session {
   std::unique_ptr<pqxx::work> transaction = {};
 };
 
-CentralLink::CentralLink(const CentralAddress& address) {
+CentralLink::CentralLink(const CentralAddress& address, Purpose purpose) {
   const std::string text = connection_text(address);
-  session_ = told("cannot be reached", [&] { return std::make_unique<Session>(text); });
-  make_schema();
+  try {
+    session_ = std::make_unique<Session>(text);
+  } catch (const pqxx::failure& error) {
+    throw EnvironmentError("central database: cannot be reached: " + connecting_words(one_line(error.what())));
+  }
+  if (purpose == Purpose::kUse) look();
 }
 
 CentralLink::~CentralLink() = default;
@@ -142,7 +92,7 @@ void CentralLink::commit() {
   });
 }
 
-void CentralLink::touch() { run("UPDATE central SET revision = (SELECT last_value FROM arrival)"); }
+void CentralLink::touch() { run("SELECT touch()"); }
 
 std::int64_t CentralLink::revision() {
   return std::stoll(run("SELECT revision::text FROM central").front().front().value_or("0"));
@@ -165,25 +115,39 @@ std::vector<Values> CentralLink::run(const std::string& sql, const std::vector<s
   });
 }
 
-void CentralLink::make_schema() {
-  begin();
-  int version = 0;
-  if (run("SELECT to_regclass('trocar.central')").front().front()) {
-    const Values about = run("SELECT uuid, version::text FROM central").front();
-    uuid_ = *about[0];
-    version = std::stoi(*about[1]);
-  } else {
-    uuid_ = make_uuid();
-  }
+int CentralLink::version() {
+  if (!run("SELECT to_regclass('trocar.central')").front().front()) return 0;
+  const Values about = run("SELECT uuid, version::text FROM central").front();
+  uuid_ = *about[0];
+  const int version = std::stoi(*about[1]);
   if (version > kCentralVersion) {
     throw EnvironmentError("central database: was made by a newer trocar (schema " + std::to_string(version) +
                            ", this program knows up to " + std::to_string(kCentralVersion) + "); it was left as it is");
   }
-  for (const std::string& statement : central_statements(version)) run(statement);
-  if (version == 0) {
+  return version;
+}
+
+int CentralLink::make_schema() {
+  const int before = version();
+  if (before == kCentralVersion) return before;
+  for (const std::string& statement : central_statements(before)) run(statement);
+  if (before == 0) {
+    uuid_ = make_uuid();
     run("INSERT INTO central (uuid, version, revision) VALUES ($1, $2::integer, 0)",
         {uuid_, std::to_string(kCentralVersion)});
   }
+  return before;
+}
+
+void CentralLink::look() {
+  begin_reading();
+  if (const int there = version(); there < kCentralVersion) {
+    throw EnvironmentError((there == 0 ? std::string("central database: nothing of trocar is there yet")
+                                       : "central database: is of an older trocar (schema " + std::to_string(there) +
+                                             ", this program needs " + std::to_string(kCentralVersion) + ")") +
+                           ": its owner sets it up with trocar sync central --at URL");
+  }
+  owner_ = run("SELECT is_owner()").front().front() == "t";
   commit();
 }
 

@@ -19,20 +19,19 @@ namespace trocar::sync {
 /// Values as text, in the order of the columns; empty: NULL.
 using Values = std::vector<std::optional<std::string>>;
 
-/// What libpq is given: the address with password and time-outs. @throws InputError: not an address, holds a password,
-/// file unfit.
-std::string connection_text(const CentralAddress& address);
-
 class CentralLink {
  public:
-  /// Connects, makes the schema when it is missing. @throws as push_to_central.
-  explicit CentralLink(const CentralAddress& address);
+  enum class Purpose : std::uint8_t { kUse, kSetUp };
+  /// Connects. @param purpose kUse: the schema is to be there, of this program's version. @throws as push_to_central.
+  explicit CentralLink(const CentralAddress& address, Purpose purpose = Purpose::kUse);
   ~CentralLink();
   CentralLink(const CentralLink&) = delete;
   CentralLink& operator=(const CentralLink&) = delete;
 
   /// UUID of the central database.
   const std::string& uuid() const { return uuid_; }
+  /// Whether this login owns the schema: then nothing there is beyond it.
+  bool is_owner() const { return owner_; }
 
   void begin();
   /// Sees one state from beginning to end and holds up nobody.
@@ -44,13 +43,17 @@ class CentralLink {
   std::int64_t revision();
   /// Inside a transaction. Parameters are $1, $2, ...
   std::vector<Values> run(const std::string& sql, const std::vector<std::string>& parameters = {});
+  /// Inside a transaction: makes the schema or brings it to this program's version. @returns the version before.
+  int make_schema();
 
  private:
   struct Session;
   void open(const std::string& first);
-  void make_schema();
+  int version();
+  void look();
   std::unique_ptr<Session> session_;
   std::string uuid_;
+  bool owner_ = false;
 };
 
 }  // namespace trocar::sync

@@ -1,6 +1,7 @@
 #include "trainees/exchange/sync/central_schema.h"
 
 #include "trainees/exchange/sync/carried_rows.h"
+#include "trainees/exchange/sync/central_rights.h"
 
 namespace trocar::sync {
 namespace {
@@ -99,6 +100,10 @@ std::vector<std::string> central_statements(int from) {
   std::vector<std::string> statements;
   if (from < 1) add_version_1(statements);
   if (from < 2) add_version_2(statements);
+  if (from < 3) {
+    for (std::string& statement : rights_statements()) statements.push_back(std::move(statement));
+    statements.emplace_back("UPDATE central SET version = 3");
+  }
   return statements;
 }
 
@@ -117,11 +122,12 @@ const std::vector<std::string>& central_erasing() {
                            " WHERE trainee_uuid IN (SELECT trainee_uuid FROM erased_trainee)");
     }
     // What people signed and rated under their own names: only their station knows which those are, its trail names
-    // them.
+    // them; no trail names those of another login.
     for (const std::string table : {"signature", "rating"}) {
       statements.push_back("DELETE FROM " + table +
                            " r USING audit u, erasure e WHERE u.action LIKE '% erased' AND u.action = '" + table +
-                           " erased' AND u.subject = r.uuid AND e.uuid = u.detail");
+                           " erased' AND u.subject = r.uuid AND e.uuid = u.detail AND (SELECT login FROM station WHERE"
+                           " uuid = r.station) = (SELECT login FROM station WHERE uuid = u.station)");
     }
     for (const CarriedTable& table : carried_of_attempt())
       statements.push_back("DELETE FROM " + table.name + of_erased);

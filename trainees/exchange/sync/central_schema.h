@@ -3,7 +3,7 @@
 //
 // Version 2: every row has a number of arrival (column seq); whoever writes holds the lock until the end, so that
 // numbers become visible in their order, and central.revision is the highest of what has been committed. Who fetches
-// asks for what came after.
+// asks for what came after. Version 3: logins of stations and desks, and what each may (central_rights.h).
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace trocar::sync {
 
-inline constexpr int kCentralVersion = 2;
+inline constexpr int kCentralVersion = 3;
 
 /// Statements that lead from that version to the newest, in order, in one transaction. 0: nothing is there yet.
 std::vector<std::string> central_statements(int from);

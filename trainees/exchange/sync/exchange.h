@@ -7,6 +7,9 @@
 
 namespace trocar::sync {
 
+/// What could be better about this connection, a line each.
+std::vector<std::string> remarks_on(const CentralLink& link, const CentralAddress& central);
+
 PushReport push_over(CentralLink& link, Database& database, const PushOptions& options);
 
 /// @param whole compares everything; else only what arrived since the last time is asked for.

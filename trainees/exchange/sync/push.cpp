@@ -3,11 +3,12 @@
 
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/batch.h"
-#include "trainees/exchange/sync/central_schema.h"
+#include "trainees/exchange/sync/central_address.h"
 #include "trainees/exchange/sync/exchange.h"
 #include "trainees/exchange/sync/station.h"
 #include "trainees/exchange/sync/synchronise.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/witness.h"
 #include "trainees/records/demo_record.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
@@ -25,11 +26,8 @@ class Push {
   /// Says who comes. @returns how far the centre has this station's trail.
   std::int64_t announce(sqlite3* connection) {
     link_->begin();
-    link_->run(
-        "INSERT INTO station (uuid, name) VALUES ($1, $2) ON CONFLICT (uuid) DO UPDATE SET name = $2, last_seen = "
-        "clock_timestamp()",
-        {station_.uuid, station_.name});
-    const Values about = link_->run("SELECT last_position::text FROM station WHERE uuid = $1", {station_.uuid}).front();
+    tell_others();
+    const Values about = link_->run("SELECT announce($1, $2)::text", {station_.uuid, station_.name}).front();
     const auto last =
         link_->run("SELECT position::text, row_hash FROM audit a WHERE station = $1 ORDER BY a.position DESC LIMIT 1",
                    {station_.uuid});
@@ -46,10 +44,7 @@ class Push {
     send_audit(batch);
     keep_erased();
     if (!counted_.empty() || tells(batch)) link_->touch();
-    link_->run(
-        "UPDATE station SET last_position = greatest(last_position, $2::bigint), last_seen = clock_timestamp() WHERE "
-        "uuid = $1",
-        {station_.uuid, std::to_string(batch.to)});
+    link_->run("SELECT advance($1, $2::bigint)", {station_.uuid, std::to_string(batch.to)});
     link_->commit();
     take_count();
   }
@@ -59,15 +54,14 @@ class Push {
     link_->begin();
     insert(carried_bases()[2], rows_of(batch, carried_bases()[2].name));
     for (const CarriedTable& table : carried_sealed()) note_conflicts(table, insert(table, rows_of(batch, table.name)));
-    const auto changed = link_->run(
-        "INSERT INTO person (trainee_uuid, code, name, email, station) SELECT r.*, $2 FROM"
-        " json_to_recordset($1::json) AS r(trainee_uuid text, code text, name text, email text) WHERE NOT EXISTS"
-        " (SELECT 1 FROM erased_trainee e WHERE e.trainee_uuid = r.trainee_uuid) ON CONFLICT (trainee_uuid) DO UPDATE"
-        " SET code = excluded.code, name = excluded.name, email = excluded.email, seq = nextval('arrival') WHERE "
-        "(person.code, person.name,"
-        " person.email) <> (excluded.code, excluded.name, excluded.email) RETURNING 1",
-        {json_rows(carried_person(), rows_of(batch, carried_person().name)), station_.uuid});
-    if (!changed.empty()) counted_["person"] += static_cast<int>(changed.size());
+    const std::string changed =
+        link_
+            ->run("SELECT keep_people($1, $2::json)::text",
+                  {station_.uuid, json_rows(carried_person(), rows_of(batch, carried_person().name))})
+            .front()
+            .front()
+            .value_or("0");
+    if (changed != "0") counted_["person"] += std::stoi(changed);
     keep_erased();
     if (!counted_.empty()) link_->touch();
     link_->commit();
@@ -85,14 +79,26 @@ class Push {
     take_count();
   }
 
+  /// The newest entry, signed: a witness that this station cannot take back.
+  void send_head(const SignedHead& head) {
+    link_->begin();
+    link_->run(
+        "INSERT INTO head (station, position, row_hash, utc, key, signature) VALUES ($1, $2::bigint, $3, $4, $5, $6)"
+        " ON CONFLICT DO NOTHING",
+        {station_.uuid, std::to_string(head.position), head.row_hash, head.utc, head.key, head.signature});
+    link_->commit();
+  }
+
   void tell_conflicts() {
     link_->begin();
     for (const Values& row :
          link_->run("SELECT kind, uuid, hash, kept FROM conflict WHERE station = $1 ORDER BY kind, uuid, hash",
                     {station_.uuid})) {
-      report_->conflicts.push_back(*row[0] + " " + *row[1] + ": the central database has it with another hash (" +
-                                   row[3]->substr(0, 12) + ", here " + row[2]->substr(0, 12) +
-                                   "); nothing was overwritten");
+      report_->conflicts.push_back(
+          *row[0] + " " + *row[1] +
+          (row[3]->empty() ? ": is about somebody of another station; this login may not bring it, a desk may"
+                           : ": the central database has it with another hash (" + row[3]->substr(0, 12) + ", here " +
+                                 row[2]->substr(0, 12) + "); nothing was overwritten"));
     }
     link_->commit();
   }
@@ -101,7 +107,7 @@ class Push {
   /// What came just now of people who were erased goes again.
   void keep_erased() {
     if (link_->run("SELECT 1 FROM erasure LIMIT 1").empty()) return;
-    for (const std::string& statement : central_erasing()) link_->run(statement);
+    link_->run("SELECT erase()");
   }
 
   /// Entries that are news by themselves: others fetch groups and what erased people had signed by them.
@@ -110,6 +116,16 @@ class Push {
       const std::string action = entry[3].value_or("");
       return action == "group joined" || action == "group left" || action.ends_with(" erased");
     });
+  }
+
+  /// A login that comes as another station than before: a record that was put in the place of another does so.
+  void tell_others() {
+    if (link_->is_owner() || !link_->run("SELECT 1 FROM station WHERE uuid = $1", {station_.uuid}).empty()) return;
+    for (const Values& row :
+         link_->run("SELECT name, uuid, last_position::text FROM station WHERE login = session_user ORDER BY uuid")) {
+      report_->told.push_back("this login pushed as station " + *row[0] + " (" + *row[1] + ") up to entry " + *row[2] +
+                              " and comes as another station now: another record, or one under a new UUID");
+    }
   }
 
   /// What was counted counts once it is committed.
@@ -238,6 +254,16 @@ void send_batches(Push& push, Database& database, const std::string& central, co
 
 }  // namespace
 
+std::vector<std::string> remarks_on(const CentralLink& link, const CentralAddress& central) {
+  std::vector<std::string> remarks;
+  if (const std::string weak = weak_tls_remark(central); !weak.empty()) remarks.push_back(weak);
+  if (link.is_owner())
+    remarks.emplace_back(
+        "this login owns the central database and could rewrite all of it: let this place in under a login of its own"
+        " (trocar sync admit)");
+  return remarks;
+}
+
 PushReport push_over(CentralLink& link, Database& database, const PushOptions& options) {
   require_no_demo(database, "nothing is synchronised from it");
   if (options.with_identity && is_replica(database.connection())) {
@@ -257,6 +283,7 @@ PushReport push_over(CentralLink& link, Database& database, const PushOptions& o
   }
   report.from = report.to = std::min(known, there);  // either side may have been put back
   send_batches(push, database, link.uuid(), options, report);
+  push.send_head(newest_head(database));
   const std::string seen = "seen at " + link.uuid();
   const std::int64_t mark = seen_mark(database.connection());
   if (mark != 0 && (mark != cursor_of(database, seen) || there < known)) {
@@ -280,7 +307,9 @@ PushReport push_over(CentralLink& link, Database& database, const PushOptions& o
 
 PushReport push_to_central(Database& database, const PushOptions& options) {
   CentralLink link(options.central);
-  return push_over(link, database, options);
+  PushReport report = push_over(link, database, options);
+  report.remarks = remarks_on(link, options.central);
+  return report;
 }
 
 }  // namespace trocar

@@ -102,12 +102,7 @@ bool send_recording(CentralLink& link, const Recorded& one, const std::string& s
     if (!send_piece(link, one, position, piece.substr(0, static_cast<std::size_t>(in.gcount())))) return false;
   }
   link.begin();
-  const bool completed =
-      !link.run(
-               "UPDATE recording SET complete = true, seq = nextval('arrival') WHERE sha256 = $1 AND NOT complete"
-               " RETURNING 1",
-               {one.sha256})
-           .empty();
+  const bool completed = link.run("SELECT complete_recording($1)", {one.sha256}).front().front() == "t";
   link.touch();
   link.commit();
   return completed;

@@ -212,6 +212,7 @@ ReplicaKeeper::ReplicaKeeper(KeeperOptions options) : state_(std::make_unique<St
     replicate_over(*state.link, state.database, {state.options.central, false, state.options.going},
                    before.central != state.central);
     state.exchange(true);
+    state.tell(remarks_on(*state.link, state.options.central));
     state.asked = Clock::now();
     state.found(true);
   } catch (const EnvironmentError& error) {

@@ -22,7 +22,8 @@ namespace trocar {
 struct CentralAddress {
   std::string url;
   std::filesystem::path password_file =
-      {};  ///< first line; empty: PGPASSWORD, ~/.pgpass or none. Not readable by others.
+      {};                 ///< first line; empty: PGPASSWORD, ~/.pgpass or none. Not readable by others.
+  bool weak_tls = false;  ///< an sslmode that does not check who answers may stand in the address
 };
 
 struct PushOptions {
@@ -41,9 +42,12 @@ struct PushReport {
   std::map<std::string, int> added = {};    ///< rows that were not there yet, by table
   std::vector<std::string> conflicts = {};  ///< all that stand at the centre for this station, from earlier pushes too
   std::vector<std::string> problems = {};   ///< rows and recordings that do not hold here and were not pushed
-  std::vector<std::string> told = {};       ///< that the centre was put back to an older state
+  /// That the centre was put back to an older state, that this login was another station before.
+  std::vector<std::string> told = {};
+  std::vector<std::string> remarks = {};  ///< what the connection could do better: TLS that checks little, the owner
 };
 
+/// Also leaves the signed head of the audit trail there, which nobody but the centre's owner can take away again.
 /// @throws InputError: bad address, rows that the centre refuses, identities from a copy for a desk. EnvironmentError:
 /// not reached, not let in, connection lost (what was committed stays), a newer central schema.
 PushReport push_to_central(Database& database, const PushOptions& options);
@@ -72,6 +76,11 @@ PullReport replicate_central(Database& database, const ReplicaOptions& options);
 inline PullReport replicate_central(Database& database, const CentralAddress& central) {
   return replicate_central(database, ReplicaOptions{central});
 }
+
+/// Where the trail is not the one that heads at the centre were taken of, a line each: heads of whatever station this
+/// record says that it was, and of those that this login pushed as. No head there is a problem too.
+/// @throws as push_to_central.
+std::vector<std::string> check_central_witness(const Database& database, const CentralAddress& central);
 
 struct LinkedPeople {
   std::string one, other;  ///< UUIDs of trainees

@@ -22,10 +22,6 @@ using nlohmann::json;
 using test::bytes_of_file;
 using test::names_in;
 
-std::size_t jigsaws_rows(const Trace& trace) {
-  return static_cast<std::size_t>((trace.samples.back().t_s - trace.samples.front().t_s) * 30 + 1e-6) + 1;
-}
-
 class ExportCommand : public TemporaryFolder {
  protected:
   ExportCommand() : file_(folder_ / "t.db") {
@@ -67,7 +63,7 @@ class ExportCommand : public TemporaryFolder {
 
 TEST_F(ExportCommand, CsvAndJsonHoldEveryAttempt) {
   EXPECT_EQ(run("csv", folder_ / "tables"), 0);
-  EXPECT_EQ(names_in(folder_ / "tables").size(), 9u);
+  EXPECT_EQ(names_in(folder_ / "tables").size(), 10u);
   EXPECT_EQ(test::read_csv(bytes_of_file(folder_ / "tables/attempts.csv")).size(), 3u);
   EXPECT_EQ(out_.str(), "2 attempts in " + (folder_ / "tables").string() + "\n");
   EXPECT_EQ(run("json", folder_ / "all.json", {"B", "", ""}), 0);
@@ -105,38 +101,20 @@ TEST_F(ExportCommand, ALaunchIsAnswered) {
   EXPECT_FALSE(fs::exists(options.out));
 }
 
-TEST_F(ExportCommand, JigsawsHoldsWhatWasRecorded) {
-  EXPECT_EQ(run("jigsaws", folder_ / "k"), 0);
-  EXPECT_NE(err_.str().find(plain_.uuid + " is left out"), std::string::npos) << err_.str();
-  const std::string trial = "surface-touch_" + recorded_.uuid;
-  const std::string text = bytes_of_file(folder_ / "k/surface-touch/kinematics/AllGestures" / (trial + ".txt"));
-  EXPECT_EQ(bytes_of_file(folder_ / "k/surface-touch/meta_file_surface-touch.txt"),
-            trial + "\tE\t0\t0\t0\t0\t0\t0\t0\n");
-  const Trace back = parse_jigsaws(text, trial, JigsawsSide::kRight);
-  const Recording recording = read_recording(recorded_.recording);
-  const Trace trace = rebuild_trace(recording.ticks, recording.rate_hz);
-  const auto window = graded_window(trace, recording.events);
-  const Trace graded = window ? cut_trace(trace, window->first, window->second) : trace;
-  ASSERT_EQ(back.samples.size(), jigsaws_rows(graded));
-  for (std::size_t k = 0; k < back.samples.size(); k += 3) {  // every third line is one of the 1 kHz samples
-    EXPECT_LT((back.samples[k].tip_T - graded.samples[k / 3 * 100].tip_T).norm(), 1e-9) << k;
-  }
-}
-
 TEST_F(ExportCommand, AChangedRecordingIsLeftOut) {
   std::ofstream(recorded_.recording, std::ios::binary) << small_recording(3, 1000, 6);
-  EXPECT_NE(message_of<InputError>([&] { run("jigsaws", folder_ / "k"); }).find("none of the attempts"),
+  EXPECT_NE(message_of<InputError>([&] { run("traces", folder_ / "k"); }).find("none of the attempts"),
             std::string::npos);
   EXPECT_NE(err_.str().find("not the one that was graded"), std::string::npos);
   fs::remove(recorded_.recording);
-  EXPECT_THROW(run("jigsaws", folder_ / "k"), InputError);
+  EXPECT_THROW(run("traces", folder_ / "k"), InputError);
   EXPECT_FALSE(fs::exists(folder_ / "k"));
 }
 
 TEST_F(ExportCommand, RefusesBeforeItBegins) {
   std::ofstream(folder_ / "there") << "mine";
   const auto names = names_in(folder_);
-  for (const char* format : {"csv", "json", "xapi", "jigsaws"}) {
+  for (const char* format : {"csv", "json", "xapi", "traces"}) {
     EXPECT_NE(message_of<InputError>([&] { run(format, folder_ / "there"); }).find("exists already"), std::string::npos)
         << format;
     EXPECT_NE(message_of<InputError>([&] { run(format, folder_ / "no/where"); }).find("there is no folder"),
@@ -162,7 +140,7 @@ TEST_F(ExportCommand, RefusesBeforeItBegins) {
 }
 
 TEST_F(ExportCommand, KinematicsAreScoredFromAFile) {
-  std::ofstream(folder_ / "k.txt") << jigsaws_text(test::sample_motion(1000, 10));
+  std::ofstream(folder_ / "k.txt") << test::jigsaws_layout(test::sample_motion(30, 10));
   EXPECT_EQ(kinematics_command({folder_ / "k.txt", "right", true}, out_), 0);
   const json result = json::parse(out_.str());
   EXPECT_EQ(result["side"], "right");

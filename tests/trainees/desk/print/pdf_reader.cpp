@@ -29,9 +29,9 @@ class PdfFile {
   PdfFile& operator=(const PdfFile&) = delete;
 
   /// Output of a program called with the file in place of "@".
-  std::string said_by(std::string command) const {
+  std::string said_by(std::string command, const char* errors = " 2>/dev/null") const {
     command.replace(command.find('@'), 1, path_.string());
-    FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+    FILE* pipe = popen((command + errors).c_str(), "r");
     if (pipe == nullptr) throw std::runtime_error(command);
     std::string out;
     std::array<char, 65536> piece{};
@@ -51,6 +51,14 @@ bool stamped(const WordBox& box) { return box.y1 - box.y0 > 40; }
 }  // namespace
 
 std::string squeezed(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
+
+std::string poppler_warnings(const std::string& bytes) {
+  const PdfFile file(bytes);
+  std::string told;
+  for (const char* program : {"pdfinfo @", "pdftotext @ -", "pdftoppm -r 40 @", "pdffonts @"})
+    told += file.said_by(program, " 2>&1 >/dev/null");
+  return told;
+}
 
 ReadPdf read_pdf(const std::string& bytes) {
   const PdfFile file(bytes);

@@ -17,6 +17,9 @@ struct ReadPdf {
 /// @throws std::runtime_error when poppler cannot read it.
 ReadPdf read_pdf(const std::string& bytes);
 
+/// What poppler's programs complain of while they read and draw it; "" when it is sound.
+std::string poppler_warnings(const std::string& bytes);
+
 /// Left upper and right lower corner of every word, points from the page's left upper corner.
 struct WordBox {
   int page = 0;  ///< from 0

@@ -102,4 +102,16 @@ Trace sample_motion(double rate_hz, double seconds, bool mirrored) {
   return trace;
 }
 
+std::string jigsaws_layout(const Trace& trace) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const TraceSample& sample : trace.samples) {
+    const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), sample.shaft_T).toRotationMatrix();
+    for (int i = 0; i < 57; ++i) out << "0 ";
+    out << sample.tip_T.transpose() << ' ' << R.row(0) << ' ' << R.row(1) << ' ' << R.row(2) << " 0 0 0 0 0 0 "
+        << 2 * std::asin(sample.jaw_opening_m / (2 * 0.020)) << '\n';  // jaws of 20 mm
+  }
+  return out.str();
+}
+
 }  // namespace trocar::test

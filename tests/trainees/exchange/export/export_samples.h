@@ -29,4 +29,7 @@ XapiAttempt sample_xapi(double score = 81.25);
 /// A tip on a sum of slow sines within 10 cm, the shaft leaning, the jaws opening; mirrored about x when left.
 Trace sample_motion(double rate_hz, double seconds, bool mirrored = false);
 
+/// A trace of 30 Hz in the columns of JIGSAWS, as the right slave.
+std::string jigsaws_layout(const Trace& trace);
+
 }  // namespace trocar::test

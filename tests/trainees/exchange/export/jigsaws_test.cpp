@@ -1,7 +1,6 @@
-// The layout of JIGSAWS: columns against analytic movements, the way there and back, metrics before and after.
+// The layout of JIGSAWS: what stands in its columns, metrics of a movement before and after it went through them.
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "scenarios/scoring/metrics.h"
 #include "tests/trainees/exchange/export/export_samples.h"
@@ -10,18 +9,8 @@
 namespace trocar::jigsaws_test {
 namespace {
 
+using test::jigsaws_layout;
 using test::sample_motion;
-
-std::vector<std::vector<double>> rows_of(const std::string& text) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (double value = 0; fields >> value;) rows.back().push_back(value);
-  }
-  return rows;
-}
 
 double value_of(const std::vector<Metric>& metrics, const std::string& name) {
   for (const Metric& metric : metrics)
@@ -36,101 +25,23 @@ std::string line_at(double x, const std::string& rotation = "1 0 0 0 1 0 0 0 1")
   return line + std::to_string(x) + " 0 0 " + rotation + " 0 0 0 0 0 0 0\n";
 }
 
-TEST(Jigsaws, HasSeventySixColumnsAtThirtyHertz) {
-  const auto rows = rows_of(jigsaws_text(sample_motion(1000, 10)));
-  ASSERT_EQ(rows.size(), 301u);
-  for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), 76u);
-    for (int i = 0; i < 19; ++i) {
-      ASSERT_EQ(row[static_cast<std::size_t>(i)], 0) << "master left";
-      ASSERT_EQ(row[static_cast<std::size_t>(38 + i)], 0) << "slave left";
-      ASSERT_EQ(row[static_cast<std::size_t>(19 + i)], row[static_cast<std::size_t>(57 + i)])
-          << "master right as slave right";
-    }
-  }
-}
-
-TEST(Jigsaws, PositionsAreThoseOfTheMoment) {
-  const Trace trace = sample_motion(1000, 5);
-  const auto rows = rows_of(jigsaws_text(trace));
-  for (std::size_t k = 0; k < rows.size(); k += 3) {  // every 3rd of 30 Hz is a sample of 1 kHz
-    const TraceSample& s = trace.samples[k / 3 * 100];
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(rows[k][static_cast<std::size_t>(57 + i)], s.tip_T[i], 1e-12) << k;
-    for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(rows[k][static_cast<std::size_t>(60 + 3 * i + 2)], s.shaft_T[i], 1e-9) << "third column, by rows";
-  }
-}
-
-TEST(Jigsaws, VelocitiesAreThoseOfAnAnalyticMotion) {
-  Trace turning;  // 0.2 m/s along x; the shaft turns about x at 0.5 rad/s
-  for (int i = 0; i <= 2000; ++i) {
-    TraceSample s;
-    s.t_s = i / 1000.0;
-    s.tip_T = Vec3(0.2 * s.t_s, 0, 0);
-    s.shaft_T = Vec3(0, -std::sin(0.5 * s.t_s), std::cos(0.5 * s.t_s));
-    turning.samples.push_back(s);
-  }
-  for (const auto& row : rows_of(jigsaws_text(turning))) {
-    EXPECT_NEAR(row[57 + 12], 0.2, 1e-9);
-    EXPECT_NEAR(row[57 + 13], 0, 1e-12);
-    EXPECT_NEAR(row[57 + 15], 0.5, 1e-6);
-    EXPECT_NEAR(row[57 + 16], 0, 1e-6);
-    EXPECT_NEAR(row[57 + 17], 0, 1e-6);
-  }
-}
-
-TEST(Jigsaws, RotationsAreRotationsWithoutRoll) {
-  Mat3 before = Mat3::Identity();
-  bool first = true;
-  for (const auto& row : rows_of(jigsaws_text(sample_motion(1000, 20)))) {
-    Mat3 R;
-    for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = row[static_cast<std::size_t>(60 + i)];
-    ASSERT_LT((R * R.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff(), 1e-12);
-    ASSERT_NEAR(R.determinant(), 1, 1e-12);
-    const Eigen::AngleAxisd turn(R * before.transpose());
-    if (!first && turn.angle() > 1e-6) {
-      ASSERT_LT(std::abs(turn.axis().dot((R.col(2) + before.col(2)).normalized())), 1e-6);
-    }
-    before = R;
-    first = false;
-  }
-}
-
-TEST(Jigsaws, GripperAngleOpensTheJaws) {
-  Trace trace = sample_motion(1000, 1);
-  for (TraceSample& s : trace.samples) s.jaw_opening_m = 0.020;  // as wide as the jaws are long: 60 degrees
-  for (const auto& row : rows_of(jigsaws_text(trace))) EXPECT_NEAR(row[75], M_PI / 3, 1e-12);
-  for (TraceSample& s : trace.samples) s.jaw_opening_m = 0.5;
-  EXPECT_NEAR(rows_of(jigsaws_text(trace))[0][75], M_PI, 1e-12) << "no further than open";
-}
-
-TEST(Jigsaws, ThereAndBackAgreesWithinTheSampling) {
-  for (const double rate : {100.0, 1000.0, 4000.0}) {
-    const Trace trace = sample_motion(rate, 8);
-    const Trace back = parse_jigsaws(jigsaws_text(trace), "x.txt", JigsawsSide::kRight);
-    EXPECT_EQ(back.rate_hz, 30);
-    ASSERT_EQ(back.samples.size(), 241u);
-    const Trace exact = sample_motion(30, 8);
-    for (std::size_t k = 0; k < back.samples.size(); ++k) {
-      ASSERT_NEAR(back.samples[k].t_s, exact.samples[k].t_s, 1e-12);
-      // linear between samples: an error of at most a (2 pi f)^2 / (8 rate^2)
-      const double bound = 0.004 * std::pow(2 * M_PI * 1.7, 2) / (8 * rate * rate) * 2 + 1e-12;
-      ASSERT_LT((back.samples[k].tip_T - exact.samples[k].tip_T).norm(), bound) << rate << " Hz, line " << k;
-      ASSERT_LT((back.samples[k].shaft_T - exact.samples[k].shaft_T).norm(), 1e-4);
-      ASSERT_NEAR(back.samples[k].jaw_opening_m, exact.samples[k].jaw_opening_m, 1e-5);
-    }
-    const Trace twice = parse_jigsaws(jigsaws_text(back), "x.txt", JigsawsSide::kRight);
-    for (std::size_t k = 0; k < back.samples.size(); ++k) {
-      ASSERT_LT((twice.samples[k].tip_T - back.samples[k].tip_T).norm(), 1e-12) << "a fixed point";
-      ASSERT_LT((twice.samples[k].shaft_T - back.samples[k].shaft_T).norm(), 1e-9);
-    }
+TEST(Jigsaws, ReadsWhatStandsInTheColumns) {
+  const Trace written = sample_motion(30, 8);
+  const Trace back = parse_jigsaws(jigsaws_layout(written), "x.txt", JigsawsSide::kRight);
+  EXPECT_EQ(back.rate_hz, 30);
+  ASSERT_EQ(back.samples.size(), written.samples.size());
+  for (std::size_t k = 0; k < back.samples.size(); ++k) {
+    ASSERT_NEAR(back.samples[k].t_s, written.samples[k].t_s, 1e-12);
+    ASSERT_LT((back.samples[k].tip_T - written.samples[k].tip_T).norm(), 1e-12);
+    ASSERT_LT((back.samples[k].shaft_T - written.samples[k].shaft_T).norm(), 1e-12);
+    ASSERT_NEAR(back.samples[k].jaw_opening_m, written.samples[k].jaw_opening_m, 1e-12);
   }
 }
 
 TEST(Jigsaws, MetricsAgreeWithinTwoPercent) {
-  const Trace trace = sample_motion(1000, 30);
-  const auto before = kinematic_metrics(trace);
-  const auto after = kinematic_metrics(parse_jigsaws(jigsaws_text(trace), "x.txt", JigsawsSide::kRight));
+  const auto before = kinematic_metrics(sample_motion(1000, 30));
+  const auto after =
+      kinematic_metrics(parse_jigsaws(jigsaws_layout(sample_motion(30, 30)), "x.txt", JigsawsSide::kRight));
   for (const char* name :
        {"time_s", "path_m", "path_x_m", "path_y_m", "path_z_m", "depth_path_m", "angular_path_deg", "speed_mean_mps",
         "speed_max_mps", "speed_peaks", "idle_share", "movements", "sparc", "ldlj", "normalised_jerk"}) {
@@ -140,11 +51,13 @@ TEST(Jigsaws, MetricsAgreeWithinTwoPercent) {
 }
 
 TEST(Jigsaws, AQuickHandKeepsItsSpeed) {
-  Trace trace =
-      sample_motion(1000, 20);  // 3 mm at 4 Hz on top: differences at 30 Hz alone would lose a tenth of its speed
-  for (TraceSample& s : trace.samples) s.tip_T.z() += 0.003 * std::sin(2 * M_PI * 4 * s.t_s);
-  const auto before = kinematic_metrics(trace);
-  const auto after = kinematic_metrics(parse_jigsaws(jigsaws_text(trace), "x.txt", JigsawsSide::kRight));
+  const auto quick = [](double rate_hz) {  // 3 mm at 4 Hz on top: differences at 30 Hz would lose a tenth of its speed
+    Trace trace = sample_motion(rate_hz, 20);
+    for (TraceSample& s : trace.samples) s.tip_T.z() += 0.003 * std::sin(2 * M_PI * 4 * s.t_s);
+    return trace;
+  };
+  const auto before = kinematic_metrics(quick(1000));
+  const auto after = kinematic_metrics(parse_jigsaws(jigsaws_layout(quick(30)), "x.txt", JigsawsSide::kRight));
   for (const char* name : {"path_m", "speed_mean_mps", "speed_max_mps", "sparc"}) {
     EXPECT_NEAR(value_of(after, name), value_of(before, name), 0.02 * std::abs(value_of(before, name))) << name;
   }
@@ -209,15 +122,6 @@ TEST(Jigsaws, TakesTabsAndCommasToo) {
   }
 }
 
-TEST(Jigsaws, BeginsWhereTheTraceBegins) {
-  Trace trace = sample_motion(1000, 2);
-  for (TraceSample& s : trace.samples) s.t_s += 17.25;
-  EXPECT_EQ(rows_of(jigsaws_text(trace)).size(), 61u);
-  const Trace back = parse_jigsaws(jigsaws_text(trace), "x.txt", JigsawsSide::kRight);
-  EXPECT_EQ(back.samples.front().t_s, 0);
-  EXPECT_LT((back.samples.front().tip_T - trace.samples.front().tip_T).norm(), 1e-12);
-}
-
 TEST(Jigsaws, AFewSamplesAreMeasuredAsTheyAre) {
   const Trace two = parse_jigsaws(line_at(0) + line_at(0.03), "x.txt", JigsawsSide::kRight);
   EXPECT_NEAR(value_of(kinematic_metrics(two), "path_m"), 0.03, 0.01) << "the filter has little to go on";
@@ -241,28 +145,6 @@ TEST(Jigsaws, RefusesWhatIsNotTheLayout) {
   EXPECT_NE(message(line_at(0)).find("fewer than two lines"), std::string::npos);
   EXPECT_NE(message("").find("fewer than two lines"), std::string::npos);
   EXPECT_EQ(message(line_at(0) + line_at(1)), "");
-}
-
-TEST(Jigsaws, RefusesTracesThatAreNone) {
-  Trace trace = sample_motion(1000, 1);
-  const auto message = [](const Trace& t) { return message_of<InputError>([&] { jigsaws_text(t); }); };
-  Trace bad = trace;
-  bad.samples[500].tip_T.y() = NAN;
-  EXPECT_NE(message(bad).find("not finite at 0.5"), std::string::npos);
-  bad = trace;
-  bad.samples[500].shaft_T = Vec3::Zero();
-  EXPECT_FALSE(message(bad).empty());
-  bad = trace;
-  bad.samples[500].t_s = bad.samples[499].t_s;
-  EXPECT_NE(message(bad).find("do not increase"), std::string::npos);
-  trace.samples.resize(1);
-  EXPECT_FALSE(message(trace).empty());
-}
-
-TEST(Jigsaws, TheMetaLineIsSkillSumAndItems) {
-  EXPECT_EQ(jigsaws_meta_line({"Suturing_B001", 'N', std::array<int, 6>{1, 2, 3, 4, 5, 1}}),
-            "Suturing_B001\tN\t16\t1\t2\t3\t4\t5\t1\n");
-  EXPECT_EQ(jigsaws_meta_line({"touch_1", 'X', {}}), "touch_1\tX\t0\t0\t0\t0\t0\t0\t0\n");
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ using test::CsvTable;
 using test::read_csv;
 
 const Author kTeacher{"0192-t", "Dr =Teach, \"MD\""};
-const std::vector<std::string> kFiles{"attempts.csv",  "caps.csv",    "events.csv",     "metrics.csv",  "notes.csv",
-                                      "overrides.csv", "ratings.csv", "signatures.csv", "subscores.csv"};
+const std::vector<std::string> kFiles{"attempts.csv",   "caps.csv",     "certificates.csv", "events.csv",
+                                      "metrics.csv",    "notes.csv",    "overrides.csv",    "ratings.csv",
+                                      "signatures.csv", "subscores.csv"};
 
 class TableExport : public TemporaryFolder {
  protected:

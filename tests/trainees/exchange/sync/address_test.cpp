@@ -6,6 +6,7 @@
 
 #include "tests/trainees/exchange/sync/stations.h"
 #include "trainees/exchange/sync/carried_rows.h"
+#include "trainees/exchange/sync/central_address.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -44,11 +45,38 @@ TEST_F(Address, IsPostgresql) {
 }
 
 TEST_F(Address, GetsTimeOutsUnlessItHasThem) {
-  const std::string plain = connection_text({"postgresql://central/trocar"});
+  const std::string plain = connection_text({"postgresql://localhost/trocar"});
   EXPECT_NE(plain.find("/trocar?connect_timeout=10&"), std::string::npos) << plain;
-  const std::string given = connection_text({"postgresql://central/trocar?connect_timeout=3&sslmode=verify-full"});
+  const std::string given = connection_text({"postgresql://localhost/trocar?connect_timeout=3"});
   EXPECT_EQ(given.find("connect_timeout=10"), std::string::npos) << given;
   EXPECT_NE(given.find("tcp_user_timeout=30000"), std::string::npos) << given;
+}
+
+TEST_F(Address, BeyondThisMachineProvesWhoAnswers) {
+  for (const char* url :
+       {"postgresql://central/t", "postgresql://10.0.0.7/t", "postgresql:///t?host=central",
+        "postgresql://localhost,central/t", "postgresql://127.0.0.1.central.example/t", "postgresql:///t?service=x",
+        "postgresql://central/t?hostaddr=127.0.0.1", "postgresql://[2001:db8::1]/t", "postgresql://%63entral/t"}) {
+    EXPECT_NE(connection_text({url}).find("&sslmode=verify-full&gssencmode=disable"),
+              connection_text({url}).find("?sslmode=verify-full&gssencmode=disable"))
+        << url;
+    const std::string weak = std::string(url) + (std::string(url).find('?') == std::string::npos ? "?" : "&");
+    for (const std::string mode : {"disable", "prefer", "require", "verify-ca"}) {
+      const CentralAddress address{weak + "sslmode=" + mode};
+      EXPECT_NE(refusal(address).find("sslmode=" + mode + " does not check"), std::string::npos) << refusal(address);
+      EXPECT_NE(refusal(address).find("--allow-weak-tls"), std::string::npos);
+      const CentralAddress allowed{address.url, {}, true};
+      EXPECT_EQ(refusal(allowed), "") << address.url;
+      EXPECT_NE(sync::weak_tls_remark(allowed).find("sslmode=" + mode), std::string::npos) << address.url;
+    }
+    EXPECT_EQ(sync::weak_tls_remark({url}), "");
+  }
+  for (const char* url :
+       {"postgresql:///t", "postgresql://localhost/t", "postgresql://127.8.0.1/t", "postgresql://[::1]/t",
+        "postgresql:///t?host=/run/postgresql", "postgresql://localhost:5433,127.0.0.1/t?sslmode=disable"}) {
+    EXPECT_EQ(connection_text({url}).find("sslmode=verify-full"), std::string::npos) << url;
+    EXPECT_EQ(sync::weak_tls_remark({url}), "") << url;
+  }
 }
 
 TEST_F(Address, TakesThePasswordFromAFileThatOthersCannotRead) {
@@ -106,11 +134,11 @@ TEST_F(Stations, ANewerCentreIsLeftAsItIs) {
   Database database = station("a");
   practise(database, "T-a", 1);
   push(database);
-  ask("UPDATE central SET version = 3 RETURNING 1");
+  ask("UPDATE central SET version = 4 RETURNING 1");
   practise(database, "T-a", 1);
   const auto before = everything();
   const std::string message = message_of<EnvironmentError>([&] { push(database); });
-  EXPECT_NE(message.find("newer trocar (schema 3, this program knows up to 2)"), std::string::npos) << message;
+  EXPECT_NE(message.find("newer trocar (schema 4, this program knows up to 3)"), std::string::npos) << message;
   EXPECT_EQ(everything(), before);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/trainees/exchange/sync/stations.h"
+#include "trainees/exchange/sync/central_logins.h"
 #include "trainees/exchange/sync/station.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/records/accounts.h"
@@ -175,16 +176,21 @@ TEST_F(Stations, TextThatIsNoUtf8IsNamedAndNothingGoes) {
   EXPECT_EQ(one("SELECT count(*) FROM attempt"), "1");  // what was committed before stays
 }
 
-TEST_F(Stations, WhoMayNotMakeTheSchemaIsTold) {
+TEST_F(Stations, WhoIsNotLetInIsTold) {
   Database database = station("a");
   ask("CREATE ROLE guest LOGIN PASSWORD 'g'");
   const auto file = folder_ / "guest";
   std::ofstream(file) << "g\n";
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
-  PushOptions options{{central_.url, file}};
-  options.central.url.replace(options.central.url.find("user=trocar"), 11, "user=guest");
-  const std::string message = message_of<EnvironmentError>([&] { push_to_central(database, options); });
-  EXPECT_NE(message.find("no permission"), std::string::npos) << message;
+  const CentralAddress guest = server_.as(central_, "guest", file);
+  const std::string refused = message_of<EnvironmentError>([&] { push_to_central(database, {guest}); });
+  EXPECT_NE(refused.find("no permission"), std::string::npos) << refused;
+  EXPECT_NE(message_of<InputError>([&] { set_up_central(guest); }).find("only its owner"), std::string::npos);
+  const CentralAddress bare = server_.make_database("bare");
+  const std::string message = message_of<EnvironmentError>([&] { push_to_central(database, {bare}); });
+  EXPECT_NE(message.find("nothing of trocar is there yet: its owner sets it up with trocar sync central"),
+            std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "tests/trainees/exchange/sync/cutting_proxy.h"
 #include "tests/trainees/exchange/sync/stations.h"
+#include "trainees/exchange/sync/central_logins.h"
 #include "trainees/exchange/sync/station.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/records/curricula.h"
@@ -274,28 +275,49 @@ TEST_F(Stations, AnotherDatabaseOfTheServerIsAnotherCentre) {
   EXPECT_NE(message.find("no_such_database"), std::string::npos) << message;
 }
 
-TEST_F(Stations, ACentreOfTheOldSchemaIsBroughtToTheNewOneAndKeepsEverything) {
-  Database database = station("a");
-  practise(database, "T-a", 2);
-  push_named(database, "a");
-  const Lines before = everything();
-  ask("DO $$ DECLARE t text; BEGIN DROP VIEW trocar.erased_trainee, trocar.linked_trainee, trocar.holding_link;"
-      " DROP TABLE trocar.note_seen, trocar.person_link, trocar.recording_chunk, trocar.recording; FOR t IN SELECT "
-      "table_name FROM"
-      " information_schema.columns WHERE table_schema = 'trocar' AND column_name = 'seq' LOOP EXECUTE 'ALTER TABLE "
-      "trocar.' || t ||"
-      " ' DROP COLUMN seq'; END LOOP; ALTER TABLE trocar.central DROP COLUMN revision; DROP SEQUENCE trocar.arrival;"
-      " UPDATE trocar.central SET version = 1; END $$");
-  practise(database, "T-a", 1);
-  EXPECT_EQ(push_named(database, "a").added.at("attempt"), 1);
-  EXPECT_EQ(one("SELECT version FROM central"), "2");
-  const Lines after = everything();
-  for (const std::string& line : before) {
-    if (line.starts_with("station")) continue;  // how far one is has changed
-    EXPECT_EQ(std::count(after.begin(), after.end(), line), 1) << line;
+/// Takes from a centre what version 3, and version 2 before it, added.
+constexpr const char* kBackToVersion2 =
+    "DO $$ DECLARE t text; BEGIN FOR t IN SELECT tablename FROM pg_tables WHERE schemaname = 'trocar' LOOP"
+    " EXECUTE 'DROP POLICY IF EXISTS sees ON trocar.' || t; EXECUTE 'DROP POLICY IF EXISTS brings ON trocar.' || t;"
+    " EXECUTE 'ALTER TABLE trocar.' || t || ' DISABLE ROW LEVEL SECURITY'; END LOOP;"
+    " DROP VIEW trocar.own_certificate, trocar.own_attempt, trocar.own_person, trocar.own_trainee;"
+    " DROP TABLE trocar.head, trocar.login; FOR t IN SELECT table_name FROM information_schema.columns WHERE"
+    " table_schema = 'trocar' AND column_name = 'login' LOOP"
+    " EXECUTE 'ALTER TABLE trocar.' || t || ' DROP COLUMN login'; END LOOP;"
+    " FOR t IN SELECT oid::regprocedure::text FROM pg_proc WHERE pronamespace = 'trocar'::regnamespace LOOP"
+    " EXECUTE 'DROP FUNCTION ' || t; END LOOP; UPDATE trocar.central SET version = 2; END $$";
+constexpr const char* kBackToVersion1 =
+    "DO $$ DECLARE t text; BEGIN DROP VIEW trocar.erased_trainee, trocar.linked_trainee, trocar.holding_link;"
+    " DROP TABLE trocar.note_seen, trocar.person_link, trocar.recording_chunk, trocar.recording; FOR t IN SELECT"
+    " table_name FROM information_schema.columns WHERE table_schema = 'trocar' AND column_name = 'seq' LOOP EXECUTE"
+    " 'ALTER TABLE trocar.' || t || ' DROP COLUMN seq'; END LOOP; ALTER TABLE trocar.central DROP COLUMN revision;"
+    " DROP SEQUENCE trocar.arrival; UPDATE trocar.central SET version = 1; END $$";
+
+TEST_F(Stations, ACentreOfAnOlderSchemaIsBroughtToTheNewOneByItsOwnerAndKeepsEverything) {
+  for (const int version : {2, 1}) {
+    central_ = another_central();
+    Database database = station("a" + std::to_string(version));
+    practise(database, "T-a", 2);
+    push_named(database, "a");
+    const Lines before = everything();
+    ask(kBackToVersion2);
+    if (version == 1) ask(kBackToVersion1);
+    practise(database, "T-a", 1);
+    const std::string refused = message_of<EnvironmentError>([&] { push_named(database, "a"); });
+    EXPECT_NE(refused.find("older trocar (schema " + std::to_string(version)), std::string::npos) << refused;
+    EXPECT_NE(refused.find("trocar sync central --at"), std::string::npos) << refused;
+    EXPECT_EQ(set_up_central(server_.owner_of(central_)).from, version);
+    EXPECT_EQ(set_up_central(server_.owner_of(central_)).from, 3);
+    central_ = server_.owner_of(central_);
+    EXPECT_EQ(push_named(database, "a").added.at("attempt"), 1);
+    const Lines after = everything();
+    for (const std::string& line : before) {
+      if (line.starts_with("station")) continue;  // how far one is has changed
+      EXPECT_EQ(std::count(after.begin(), after.end(), line), 1) << line;
+    }
+    Database copy = desk("desk" + std::to_string(version));
+    EXPECT_EQ(AttemptStore(copy).list().size(), 3u);
   }
-  Database copy = desk();
-  EXPECT_EQ(AttemptStore(copy).list().size(), 3u);
 }
 
 }  // namespace

@@ -4,9 +4,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <gtest/gtest.h>
+
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <pqxx/pqxx>
+#include <thread>
 
 namespace trocar::test {
 namespace {
@@ -32,9 +36,12 @@ PostgresServer& PostgresServer::instance() {
 }
 
 bool PostgresServer::as_server(const std::string& command) const {
+  return as_its_user(programs_.string() + "/" + command);
+}
+
+bool PostgresServer::as_its_user(const std::string& command) const {
   const std::string log = (folder_ / "commands.log").string();
-  const std::string whole =
-      "cd / && " + (user_.empty() ? "" : "runuser -u " + user_ + " -- ") + programs_.string() + "/" + command;
+  const std::string whole = "cd / && " + (user_.empty() ? "" : "runuser -u " + user_ + " -- ") + command;
   return std::system(("(" + whole + ") >>" + log + " 2>&1 </dev/null").c_str()) == 0;
 }
 
@@ -62,10 +69,15 @@ PostgresServer::PostgresServer() : programs_(newest_programs()) {
                                     "/first --no-sync -E UTF8 --locale=C")) {
     reason_ = "initdb failed: " + (folder_ / "commands.log").string();
   }
-  if (reason_.empty() &&
-      !as_server("pg_ctl -D " + data + " -l " + at + "/server.log -w -t 60 -o \"-k " + at +
-                 " -c listen_addresses='' -c fsync=off -c synchronous_commit=off -c full_page_writes=off -c "
-                 "autovacuum=off -c shared_buffers=16MB -c max_connections=20\" start")) {
+  const int number = static_cast<int>(getpid());
+  listens_ = "127." + std::to_string(number >> 16 & 255) + "." + std::to_string(number >> 8 & 255) + "." +
+             std::to_string((number & 255) | 2);
+  if (reason_.empty())
+    std::ofstream(folder_ / "data" / "pg_hba.conf", std::ios::app) << "host all all 127.0.0.0/8 scram-sha-256\n";
+  if (reason_.empty() && !as_server("pg_ctl -D " + data + " -l " + at + "/server.log -w -t 60 -o \"-k " + at +
+                                    " -c listen_addresses=" + listens_ +
+                                    " -c fsync=off -c synchronous_commit=off -c full_page_writes=off -c "
+                                    "autovacuum=off -c shared_buffers=16MB -c max_connections=20\" start")) {
     reason_ = "the server did not start: " + (folder_ / "server.log").string();
   }
 }
@@ -88,6 +100,58 @@ std::string PostgresServer::connection_to(const std::string& name) const {
 std::string PostgresServer::connection_to(const CentralAddress& address) const {
   const std::size_t start = std::string("postgresql:///").size();
   return connection_to(address.url.substr(start, address.url.find('?') - start));
+}
+
+CentralAddress PostgresServer::owner_of(const CentralAddress& address) const {
+  const std::size_t start = std::string("postgresql:///").size();
+  return address_of(address.url.substr(start, address.url.find('?') - start));
+}
+
+CentralAddress PostgresServer::as(const CentralAddress& address, const std::string& login,
+                                  const fs::path& password_file) const {
+  const std::string owner = owner_of(address).url;
+  return {owner.substr(0, owner.rfind("user=")) + "user=" + login, password_file};
+}
+
+std::filesystem::path PostgresServer::speak_tls() {
+  const std::string at = folder_.string() + "/", curve = " -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 1 ";
+  EXPECT_TRUE(
+      as_its_user("openssl req -x509" + curve + "-subj /CN=authority -keyout " + at + "ca.key -out " + at + "ca.crt"));
+  EXPECT_TRUE(as_its_user("openssl req -x509" + curve +
+                          "-subj /CN=central.test -addext subjectAltName=DNS:central.test"
+                          " -CA " +
+                          at + "ca.crt -CAkey " + at + "ca.key -keyout " + at + "tls.key -out " + at + "tls.crt"));
+  set("ALTER SYSTEM SET ssl_cert_file = '" + at + "tls.crt'; ALTER SYSTEM SET ssl_key_file = '" + at + "tls.key'",
+      "on");
+  return at + "ca.crt";
+}
+
+void PostgresServer::speak_no_tls() { set("SELECT 1", "off"); }
+
+void PostgresServer::set(const std::string& settings, const std::string& tls) const {
+  {
+    pqxx::connection connection(connection_to("postgres"));
+    pqxx::nontransaction transaction(connection);
+    for (std::size_t from = 0; from < settings.size(); from = settings.find(';', from + 1))
+      transaction.exec(settings.substr(from + (from > 0), settings.find(';', from + 1) - from));
+    transaction.exec("ALTER SYSTEM SET ssl = " + tls);
+    transaction.exec("SELECT pg_reload_conf()");
+  }
+  for (int i = 0; i < 200; ++i) {  // the server takes it up when it comes to it
+    pqxx::connection connection(connection_to("postgres"));
+    if (pqxx::nontransaction(connection).exec("SHOW ssl")[0][0].c_str() == tls) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  ADD_FAILURE() << "the server does not take ssl = " << tls;
+}
+
+CentralAddress PostgresServer::over_network(const CentralAddress& address, const std::string& host,
+                                            const std::string& more) const {
+  const std::string owner = owner_of(address).url;
+  const std::size_t start = std::string("postgresql:///").size();
+  return {"postgresql://trocar@" + host + "/" + owner.substr(start, owner.find('?') - start) + "?hostaddr=" + listens_ +
+              more,
+          password_file_};
 }
 
 CentralAddress PostgresServer::make_database(const std::string& name) {

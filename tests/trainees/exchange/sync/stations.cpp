@@ -1,5 +1,6 @@
 #include "tests/trainees/exchange/sync/stations.h"
 
+#include "trainees/exchange/sync/central_logins.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::test {
@@ -14,12 +15,27 @@ std::string next_name() {
 
 void Stations::SetUp() {
   if (!server_.reason().empty()) GTEST_SKIP() << server_.reason();
-  central_ = server_.make_database(next_name());
+  central_ = another_central();
 }
 
-CentralAddress Stations::another_central() { return server_.make_database(next_name()); }
+CentralAddress Stations::another_central() {
+  const CentralAddress made = server_.make_database(next_name());
+  set_up_central(made);
+  return admitted(made, "any_" + next_name(), "desk");
+}
 
-CentralAddress Stations::backup_of_central() { return server_.copy_database(central_, next_name()); }
+CentralAddress Stations::admitted(const CentralAddress& central, const std::string& login, const std::string& kind) {
+  const std::filesystem::path password = folder_ / (login + ".password");
+  EXPECT_TRUE(admit_login(server_.owner_of(central), {login, kind, "", password}));
+  return server_.as(central, login, password);
+}
+
+CentralAddress Stations::backup_of_central() {
+  CentralAddress copy = central_;
+  const std::string copied = server_.copy_database(central_, next_name()).url, own = central_.url;
+  copy.url = copied.substr(0, copied.find('?')) + own.substr(own.find('?'));
+  return copy;
+}
 
 PushReport Stations::push_named(Database& database, const std::string& name) {
   PushOptions options{central_};
@@ -72,13 +88,14 @@ std::string Stations::one(const std::string& sql) const {
 
 std::vector<std::string> Stations::everything(const CentralAddress& central) const {
   std::string union_of;
-  for (const std::string& table :
-       server_.ask(central,
-                   "SELECT table_name FROM information_schema.tables WHERE table_schema = 'trocar'"
-                   " AND table_name <> 'central' ORDER BY 1")) {
-    union_of += (union_of.empty() ? "" : " UNION ALL ") + std::string("SELECT '") + table +
-                " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen' - 'seq')::text AS line FROM \"" + table +
-                "\" t";
+  for (const std::string& table : server_.ask(
+           central,
+           "SELECT table_name FROM information_schema.tables WHERE table_schema = 'trocar'"
+           " AND table_name NOT IN ('central', 'head', 'login') AND table_name NOT LIKE 'own\\_%' ORDER BY 1")) {
+    union_of +=
+        (union_of.empty() ? "" : " UNION ALL ") + std::string("SELECT '") + table +
+        " ' || (to_jsonb(t) - 'received' - 'first_seen' - 'last_seen' - 'seq' - 'login')::text AS line FROM \"" +
+        table + "\" t";
   }
   return server_.ask(central, union_of + " ORDER BY line");
 }

@@ -22,7 +22,10 @@ class Stations : public TemporaryFolder {
   PushReport push(Database& database, const std::string& name = "");
   std::vector<std::string> ask(const std::string& sql) const { return server_.ask(central_, sql); }
   std::string one(const std::string& sql) const;
+  /// Set up by its owner, for a login of a desk: it may what every other may, and rewrite nothing.
   CentralAddress another_central();
+  /// That centre for a new login of that kind.
+  CentralAddress admitted(const CentralAddress& central, const std::string& login, const std::string& kind);
   CentralAddress backup_of_central();
   /// Pushes with codes and names.
   PushReport push_named(Database& database, const std::string& name);
