@@ -8,6 +8,7 @@
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/level_reader.h"
+#include "trainees/desk/queries/programme_query.h"
 #include "trainees/desk/server/desk_memory.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
@@ -93,8 +94,11 @@ int whole_number(const std::string& text, int otherwise) {
 
 std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter,
                                  const std::string& now_utc) {
-  if (!desk.memory) return cohort_lines(desk.database, rules, filter, now_utc);
-  return filtered(desk.memory->lines(desk.database, now_utc), filter);
+  if (!desk.memory || filter.deactivated) return cohort_lines(desk.database, rules, filter, now_utc);
+  std::vector<CohortLine> lines = filtered(desk.memory->lines(desk.database, now_utc), filter);
+  // What is kept leaves out who is deactivated.
+  if (lines.empty() && !filter.trainee.empty()) return cohort_lines(desk.database, rules, filter, now_utc);
+  return lines;
 }
 
 bool is_staff(const Request& request) { return request.account && request.account->role != Role::kTrainee; }
@@ -141,6 +145,13 @@ std::vector<std::string> distinct_attempt_values(Database& database, const std::
   return {values.begin(), values.end()};
 }
 
+std::vector<std::pair<std::string, std::string>> tried_levels(Database& database) {
+  std::set<std::pair<std::string, std::string>> values;
+  for (const desk::Combination& one : desk::combinations(database.connection()))
+    values.emplace(one.exercise_id, one.level);
+  return {values.begin(), values.end()};
+}
+
 CohortView cohort_view(Desk& desk, const Request& request) {
   CohortView view;
   view.asked = {argument(request.query, "group"), argument(request.query, "exercise"),
@@ -161,6 +172,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   filter.group = view.asked.group;
   filter.exercise = view.asked.exercise_id;
   filter.level = view.asked.level;
+  filter.deactivated = argument(request.query, "deactivated") == "yes";
   LevelReader levels(desk);
   std::string before;
   for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
@@ -192,6 +204,11 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
     add_due(view, curve, view.curves.back().title);
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
+  for (const Reminder& step : next_steps(desk.database, view.code, request.now_utc)) {
+    const auto title = titles.find(step.step.exercise_id);
+    view.due.push_back({title == titles.end() ? step.step.exercise_id : title->second, step.step.level, step.due,
+                        "programme " + step.programme + ": " + step.missing, step.state == StepState::kOverdue});
+  }
   view.chosen = chosen_curve(view.curves, request);
   view.page = whole_number(argument(request.query, "page"), 1);
   for (const PastAttempt& attempt : picture.ended_by_device) {
