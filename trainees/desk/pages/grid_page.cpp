@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "trainees/desk/queries/programme_views.h"
 #include "trainees/markup/html.h"
@@ -61,15 +62,36 @@ std::string cell_href(const ProgrammeLine& line, const ProgrammeStep& step, cons
   return page + query_html({{"exercise", step.exercise_id}, {"level", step.level}, {"hand", step.input}}) + "#attempts";
 }
 
-std::string grid_cell(const ProgrammeLine& line, const ProgrammeStep& step, const ProgrammeCell& cell) {
-  std::string small = missing_words(step, cell.progress);
-  const bool open =
-      cell.state == StepState::kOverdue || cell.state == StepState::kNotStarted || cell.state == StepState::kLearning;
-  if (!open) small.clear();
+bool is_open(const ProgrammeCell& cell) {
+  return cell.state == StepState::kOverdue || cell.state == StepState::kNotStarted ||
+         cell.state == StepState::kLearning;
+}
+
+using Due = std::optional<std::int64_t>;
+
+/// @param usual deadline of most people, which stands at the head of the column.
+std::string grid_cell(const ProgrammeLine& line, const ProgrammeStep& step, const ProgrammeCell& cell,
+                      const Due& usual) {
   std::string out = "<td><a href=\"" + cell_href(line, step, cell) + "\">" + state_badge(cell.state) + "</a>";
-  if (!small.empty()) out += "<br/><small>" + escape_html(small) + "</small>";
-  if (open && cell.due_s) out += "<br/><small class=\"dim\">by " + day_html(due_day(*cell.due_s)) + "</small>";
+  if (is_open(cell) && cell.progress.attempts > 0)
+    out += "<br/><small>" + escape_html(missing_words(step, cell.progress)) + "</small>";
+  if (is_open(cell) && cell.due_s != usual)
+    out +=
+        "<br/><small class=\"dim\">" + (cell.due_s ? "by " + day_html(due_day(*cell.due_s)) : "no date") + "</small>";
   return out + "</td>";
+}
+
+/// By step the deadline that most people have.
+std::vector<Due> usual_dues(const ProgrammeGrid& grid) {
+  std::vector<Due> out;
+  for (std::size_t at = 0; at < grid.programme.steps.size(); ++at) {
+    std::map<Due, int> often;
+    for (const ProgrammeLine& line : grid.lines) ++often[line.cells[at].due_s];
+    const auto most =
+        std::max_element(often.begin(), often.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    out.push_back(most == often.end() ? Due() : most->first);
+  }
+  return out;
 }
 
 bool has_state(const ProgrammeLine& line, std::optional<StepState> state) {
@@ -85,13 +107,13 @@ std::vector<const ProgrammeLine*> shown_lines(const GridView& view) {
   return out;
 }
 
-std::string grid_row(const GridView& view, const ProgrammeLine& line) {
+std::string grid_row(const GridView& view, const ProgrammeLine& line, const std::vector<Due>& usual) {
   std::string out = "<tr><th scope=\"row\">" +
                     link_html("/trainee/" + url_part(line.code), line.name.empty() ? line.code : line.name) +
-                    (line.name.empty() ? "" : "<br/><small class=\"dim\">" + escape_html(line.code) + "</small>") +
+                    (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") +
                     (line.active ? "" : " <span class=\"tag\">deactivated</span>") + "</th>";
   for (std::size_t at = 0; at < line.cells.size(); ++at)
-    out += grid_cell(line, view.grid.programme.steps[at], line.cells[at]);
+    out += grid_cell(line, view.grid.programme.steps[at], line.cells[at], usual[at]);
   return out + "</tr>";
 }
 
@@ -113,12 +135,14 @@ std::string counts_row(const GridView& view, const std::vector<const ProgrammeLi
   return out + "</tr>";
 }
 
-std::string grid_head(const GridView& view) {
+std::string grid_head(const GridView& view, const std::vector<Due>& usual) {
   std::string out = "<th scope=\"col\">Trainee</th>";
-  int number = 0;
-  for (const ProgrammeStep& step : view.grid.programme.steps)
-    out += "<th scope=\"col\">" + std::to_string(++number) + ". " + escape_html(step_title(view.titles, step)) +
-           "<br/><small>" + escape_html(rule_words(step)) + "</small></th>";
+  for (std::size_t at = 0; at < usual.size(); ++at) {
+    const ProgrammeStep& step = view.grid.programme.steps[at];
+    out += "<th scope=\"col\">" + std::to_string(at + 1) + ". " + escape_html(step_title(view.titles, step)) +
+           "<br/><small>" + escape_html(rule_words(step)) +
+           (usual[at] ? "<br/>by " + day_html(due_day(*usual[at])) : "") + "</small></th>";
+  }
   return out;
 }
 
@@ -142,13 +166,16 @@ std::string grid_table(const GridView& view) {
   if (lines.empty()) return "<p>Nobody has a step in that state. Choose less above.</p>";
   const int count = static_cast<int>(lines.size()), pages = (count + kPeopleInGrid - 1) / kPeopleInGrid,
             page = std::clamp(view.asked.page, 1, pages);
+  const std::vector<Due> usual = usual_dues(view.grid);
   std::string rows = counts_row(view, lines);
   for (int i = (page - 1) * kPeopleInGrid; i < std::min(count, page * kPeopleInGrid); ++i)
-    rows += grid_row(view, *lines[static_cast<std::size_t>(i)]);
+    rows += grid_row(view, *lines[static_cast<std::size_t>(i)], usual);
   return table("Where everybody stands; the first line counts " + plural(count, "person", "people") + " by step",
-               grid_head(view), rows, "step-grid") +
+               grid_head(view, usual), rows, "step-grid") +
          grid_parts(view.asked, page, pages);
 }
+
+constexpr std::size_t kRemindersShown = 500;
 
 std::string days_words(int days) {
   if (days < 0) return plural(-days, "day late", "days late");
@@ -184,7 +211,9 @@ std::string grid_page(const GridView& view, Frame frame) {
 std::string reminders_page(const RemindersView& view, Frame frame) {
   frame.title = "Overdue and due";
   std::string rows;
-  for (const Reminder& one : view.lines)
+  const std::size_t shown = std::min(view.lines.size(), kRemindersShown);
+  for (std::size_t at = 0; at < shown; ++at) {
+    const Reminder& one = view.lines[at];
     rows += std::string("<tr") + (one.state == StepState::kOverdue ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
             link_html("/trainee/" + url_part(one.code), one.name.empty() ? one.code : one.name) +
             (one.name.empty() ? "" : " <small class=\"dim\">" + escape_html(one.code) + "</small>") + "</th>" +
@@ -192,6 +221,8 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
             link_html("/grid" + query_html({{"programme", one.programme}}), one.programme) + "</td>" +
             cell(step_title(view.titles, one.step)) + "<td>" + day_html(one.due) + "</td>" +
             cell(days_words(one.days)) + "<td>" + state_badge(one.state) + "</td>" + cell(one.missing) + "</tr>";
+  }
+
   const std::string days = std::to_string(view.days);
   return document(
       frame,
@@ -213,7 +244,10 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
                   (rows.empty()
                        ? "<p>Nothing is overdue, and nothing falls due within " + plural(view.days, "day", "days") +
                              ".</p>"
-                       : table("Steps with a deadline that are not passed, the latest first; days end in UTC",
+                       : table("Steps with a deadline that are not passed, the latest first; days end in UTC" +
+                                   (shown < view.lines.size()
+                                        ? "; the first " + std::to_string(shown) + ", all of them in the CSV file"
+                                        : std::string()),
                                head_cells({"Trainee", "Groups", "Programme", "Step", "By", "When", "State", "Missing"}),
                                rows))));
 }

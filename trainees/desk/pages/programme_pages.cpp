@@ -126,27 +126,29 @@ std::string step_fields(const ProgrammeView& view, std::size_t at) {
          number_field(id + "-days", name + "days", "on days", step.days, 100, true) +
          select_field(id + "-input", name + "input", "with", inputs, step.input) +
          number_field(id + "-due", name + "due", "due after days", step.due_days, 3660, false) +
-         tick_field(id + "-sign", name + "sign", "and certified by an instructor", step.sign_off) + "</div><p>" +
-         step_button("up", number, "Up", at > 0) + step_button("down", number, "Down", at + 1 < view.steps.size()) +
-         step_button("remove", number, "Remove") + "</p></fieldset>";
+         tick_field(id + "-sign", name + "sign", "and certified by an instructor", step.sign_off) +
+         "<p class=\"field moves\">" + step_button("up", number, "Up", at > 0) +
+         step_button("down", number, "Down", at + 1 < view.steps.size()) + step_button("remove", number, "Remove") +
+         "</p></div></fieldset>";
 }
 
 std::string steps_form(const ProgrammeView& view, const Frame& frame) {
   if (view.exercises.empty())
     return "<p>No exercise is known here: neither does this desk know those of the program, nor was one tried.</p>";
   // The first button is the one that Enter presses: saving, and not what stands at a step.
+  const std::string save = "<button name=\"do\" value=\"save\">Save</button>";
   std::string out = form_begin("/programme", frame) + "<input type=\"hidden\" name=\"name\" value=\"" +
-                    escape_html(view.name) +
-                    "\"/><button class=\"unseen\" name=\"do\" value=\"save\" tabindex=\"-1\" "
-                    "aria-hidden=\"true\">Save</button>";
+                    escape_html(view.name) + "\"/><p class=\"buttons\">" + save + "</p>";
   for (std::size_t at = 0; at < view.steps.size(); ++at) out += step_fields(view, at);
   if (!view.problem.empty())
     out += "<p class=\"error\" role=\"alert\">" + shape("fail") + "Not done. " + escape_html(sentence(view.problem)) +
            "</p>";
   return out +
          "<p class=\"buttons\"><button name=\"do\" value=\"add\" formnovalidate=\"formnovalidate\" "
-         "class=\"quiet-button\">Add a step</button> <button name=\"do\" value=\"save\">Save</button></p></form>"
-         "<p class=\"dim\">A pass counts as it counts everywhere: the score reaches the pass mark, or a person "
+         "class=\"quiet-button\">Add a step</button> " +
+         save +
+         "</p></form><p class=\"dim\">A pass counts as it counts everywhere: the score reaches the pass mark, or a "
+         "person "
          "decided so. What was passed before the programme was given counts too. Nothing is kept before you "
          "save.</p>";
 }

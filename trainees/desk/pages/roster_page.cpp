@@ -92,7 +92,8 @@ std::string roster_list(RosterView view, const Frame& frame) {
                                        ? "<p>Nobody yet: add a person below, or a whole list.</p>"
                                        : "<p>Nobody matches. Choose less above.</p>");
   const std::string head =
-      "<th scope=\"col\"><span class=\"unseen\">Ticked</span><span hidden=\"hidden\" data-all=\"p:\"><input "
+      "<th scope=\"col\" class=\"tick\"><span class=\"unseen\">Ticked</span><span hidden=\"hidden\" "
+      "data-all=\"p:\"><input "
       "type=\"checkbox\" id=\"all\"/><label class=\"unseen\" for=\"all\">Everybody</label></span></th>" +
       head_cells({"Trainee", "Groups", ">Attempts", "Last seen", "Desk login", "State", ""});
   return roster_filters(view) +
