@@ -123,7 +123,7 @@ std::string step_fields(const ProgrammeView& view, std::size_t at) {
          select_field(id + "-step", name + "step", "Exercise and level", view.exercises, step.step) +
          number_field(id + "-passes", name + "passes", "Passes", step.passes, 100, true) +
          tick_field(id + "-row", name + "row", "in a row, on different boards", step.in_a_row) +
-         number_field(id + "-days", name + "days", "on days", step.days, 100, true) +
+         number_field(id + "-days", name + "days", "on so many days", step.days, 100, true) +
          select_field(id + "-input", name + "input", "with", inputs, step.input) +
          number_field(id + "-due", name + "due", "due after days", step.due_days, 3660, false) +
          tick_field(id + "-sign", name + "sign", "and certified by an instructor", step.sign_off) +
