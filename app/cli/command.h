@@ -72,7 +72,9 @@ AddCommand add_organ_package;
 AddCommand add_organ_phantom;
 
 AddCommand add_trainee_people;  ///< add, list, show, edit
+AddCommand add_trainee_many;    ///< import, group, deactivate, reactivate
 AddCommand add_trainee_rights;  ///< note, export, consent, erase
+AddCommand add_programme;
 AddCommand add_cohort;
 AddCommand add_db_upkeep;  ///< check, backup, migrate, anchor, rubric
 AddCommand add_db_retention;

@@ -34,6 +34,15 @@ std::vector<GripLimits> desk_grip_limits(const std::string& exercise_text, const
   return limits;
 }
 
+std::vector<review::ExerciseLevels> desk_exercises(const std::filesystem::path& folder) {
+  std::vector<review::ExerciseLevels> out;
+  for (const Exercise& exercise : list_exercises(folder)) {
+    out.push_back({exercise.id, exercise.title, {}});
+    for (const ExerciseLevel& level : exercise.levels) out.back().levels.push_back(level.name);
+  }
+  return out;
+}
+
 std::string shipped_progress_rules(const std::string& assets_folder) {
   std::ifstream file(std::filesystem::path(assets_folder) / "progress.toml", std::ios::binary);
   std::ostringstream text;

@@ -2,6 +2,7 @@
 // Thread: any.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ review::LevelFacts desk_level_facts(const std::string& exercise_text, const std:
 
 /// @throws as desk_level_facts.
 std::vector<GripLimits> desk_grip_limits(const std::string& exercise_text, const std::string& level, int board);
+
+/// What programmes may have steps of: every exercise file of the folder with its levels.
+std::vector<review::ExerciseLevels> desk_exercises(const std::filesystem::path& folder);
 
 /// Text of the progress rules beside the program's assets; "" when it cannot be read.
 std::string shipped_progress_rules(const std::string& assets_folder);

@@ -72,6 +72,15 @@ std::string shipped_rules() {
   }
 }
 
+/// Without them programmes are made of what was tried.
+std::vector<review::ExerciseLevels> shipped_exercises() {
+  try {
+    return desk_exercises(find_assets().exercises);
+  } catch (const EnvironmentError&) {
+    return {};
+  }
+}
+
 constexpr std::chrono::milliseconds kTurn{100};
 constexpr int kLast_turns = 30;
 
@@ -184,6 +193,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.open = desk_opener(file);
   served.sources = desk_sources();
   served.sources.shipped_rules = shipped_rules();
+  served.sources.exercises = shipped_exercises();
   served.sources.program = TROCAR_VERSION;
   std::atomic<bool> gone{false};
   served.sources.remove_demo = [&] {

@@ -16,6 +16,7 @@ constexpr const char* kAccountTable = "account";
 
 struct SealedTable {
   std::string name, columns, from;  ///< r: the row itself
+  bool travels = true;              ///< sealed_tables() names it
 };
 
 /// Other rows stand by their UUID, so that digests hold in every database that a row is carried to.
@@ -42,7 +43,14 @@ const std::vector<SealedTable>& tables() {
       {kAccountTable,
        "r.login, r.name, r.role, (SELECT uuid FROM trainee WHERE id = r.trainee_id), r.password, r.created_utc,"
        " r.disabled_utc",
-       "account r"},
+       "account r", false},
+      {"standing", "t.uuid, r.active, r.reason, r.author, r.printed, r.utc", "standing" + of_trainee, false},
+      {"assignment",
+       "(SELECT uuid FROM trainee WHERE id = r.trainee_id), r.group_name, r.programme, r.due, r.author, r.printed,"
+       " r.utc",
+       "assignment r", false},
+      {"withdrawal", "a.uuid, r.reason, r.author, r.printed, r.utc",
+       "withdrawal r JOIN assignment a ON a.id = r.assignment_id", false},
   };
   return kSealedTables;
 }
@@ -132,7 +140,7 @@ const std::vector<std::string>& sealed_tables() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names;
     for (const SealedTable& table : tables()) {
-      if (table.name != kAccountTable) names.push_back(table.name);
+      if (table.travels) names.push_back(table.name);
     }
     return names;
   }();

@@ -18,7 +18,8 @@ struct sqlite3;
 
 namespace trocar {
 
-/// Tables whose rows are sealed, in the order in which they may refer to one another.
+/// Tables whose rows are sealed and go to a centre, in the order in which they may refer to one another. standing,
+/// assignment and withdrawal are sealed likewise and stay here.
 const std::vector<std::string>& sealed_tables();
 
 /// Actor of the entries of rows that came from a central database.

@@ -156,9 +156,8 @@ void read_decisions(const toml::table& document, const std::string& name, Progre
 
 ProgressRules read_progress_rules(const std::string& toml, const std::string& name) {
   const toml::table document = parsed(toml, name);
-  const std::vector<std::string> known{
-      "version", "unlock", "stuck",     "unsafe", "integrity", "plateau",
-      "cusum",   "ready",  "retention", "rasch",  "course"};  // a curriculum's own; others read it
+  const std::vector<std::string> known{"version", "unlock", "stuck", "unsafe",    "integrity",
+                                       "plateau", "cusum",  "ready", "retention", "rasch"};
   for (const auto& [key, value] : document)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
       throw error_at(name, key.source(), "unknown key '" + std::string(key.str()) + "'");

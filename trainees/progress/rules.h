@@ -1,7 +1,7 @@
 // The rules of progress as data: what opens a level, when somebody is stuck, unsafe, relapsed, ready, when to come
 // back.
 //
-// Read from TOML with a version of their own (assets/progress.toml is the shipped one; a curriculum may bring another).
+// Read from TOML with a version of their own (assets/progress.toml is the shipped one).
 // Every decision names the version and the numbers it rests on. Sources: docs/progress_rules.md. Pure. Thread: any.
 #pragma once
 
@@ -32,8 +32,8 @@ struct ProgressRules {
   double rasch_largest_se = 0.5;  ///< logit; abilities with a larger one are not shown
 };
 
-/// A curriculum's [[course]] is passed over. What is not named keeps the values above; `version` must be named. @param
-/// name for messages. @throws InputError with line and column: unknown key, a value that means nothing.
+/// What is not named keeps the values above; `version` must be named. @param name for messages. @throws InputError with
+/// line and column: unknown key, a value that means nothing.
 ProgressRules read_progress_rules(const std::string& toml, const std::string& name);
 
 }  // namespace trocar

@@ -11,6 +11,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/password_rules.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/trainee_store.h"
 
 namespace trocar {
 namespace {
@@ -50,6 +51,22 @@ std::string hashed(const std::string& password) {
     throw EnvironmentError("passwords: there is no room in memory to hash one (64 MiB)");
   }
   return text.data();
+}
+
+/// One that nobody would try first.
+std::string random_pin(const std::string& login) {
+  constexpr std::uint32_t kPins = 1000000;
+  start_library();
+  for (;;) {
+    std::string pin = std::to_string(randombytes_uniform(kPins));
+    pin.insert(0, 6 - pin.size(), '0');
+    try {
+      check_password(pin, Role::kTrainee, login);
+      return pin;
+    } catch (const InputError&) {
+      continue;  // a sequence, a repetition
+    }
+  }
 }
 
 Account account_of(const sql::Statement& row) {
@@ -149,6 +166,19 @@ void AccountStore::set_password(const std::string& login, const std::string& pas
       .run();
   seal_account(database_->connection(), "account password", account.uuid, author);
   transaction.commit();
+}
+
+std::string AccountStore::give_pin(const std::string& trainee_code, const std::string& author) {
+  const auto account = of_trainee(trainee_code);
+  const std::string login = account ? account->login : trainee_code, pin = random_pin(login);
+  if (account) {
+    set_password(login, pin, author);
+    return pin;
+  }
+  const auto trainee = TraineeStore(*database_).find(trainee_code);
+  if (!trainee) throw InputError("trainee \"" + trainee_code + "\": there is none");
+  add(login, trainee->name.empty() ? trainee->code : trainee->name, Role::kTrainee, trainee->code, pin, author);
+  return pin;
 }
 
 void AccountStore::set_own_password(const std::string& login, const std::string& present, const std::string& fresh) {

@@ -37,6 +37,9 @@ class AccountStore {
               const std::string& password, const std::string& author);
   /// @throws InputError: no such account, too short or too easily guessed.
   void set_password(const std::string& login, const std::string& password, const std::string& author);
+  /// A new PIN of 6 digits for the account of that trainee, which is made under the code where there is none. The PIN
+  /// can be read only here. @throws InputError: no such trainee, a code or login that fits no account.
+  std::string give_pin(const std::string& trainee_code, const std::string& author);
   /// By its owner, who knows the present one: only then is it nobody else's (signing.h).
   /// @throws InputError: as above; the present one is wrong, or the new one is the same.
   void set_own_password(const std::string& login, const std::string& present, const std::string& fresh);

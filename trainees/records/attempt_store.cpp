@@ -16,6 +16,7 @@
 #include "trainees/records/demo_record.h"
 #include "trainees/records/process_identity.h"
 #include "trainees/records/replica_facts.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -237,6 +238,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   require_no_replica(connection);
   require_no_demo(*database_, "no attempt of anybody is kept there. Give another with --db FILE");
   const std::int64_t trainee = TraineeStore(*database_).ensure_id(start.trainee);
+  require_active(connection, trainee);
   if (start.level == kExamLevel) refuse_second_exam(connection, start, trainee);
   insert_attempt(connection, start, trainee, stored_recording_path(database_->file(), id.recording), id);
   sql::Statement row(connection, "SELECT id FROM attempt WHERE uuid = ?");

@@ -12,6 +12,8 @@ WITH finished AS (
          s.id AS score_id, s.value AS score, a.status IN ('completed', 'timeout')  AS is_graded, )sql";
 constexpr const char* kRows = R"sql( WHERE a.status <> 'running'
      AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')
+     AND (?3 <> '' OR ?4 OR a.trainee_id NOT IN (SELECT trainee_id FROM
+       (SELECT trainee_id, active, max(uuid) FROM standing GROUP BY trainee_id) WHERE active = 0))
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),
@@ -30,12 +32,12 @@ ORDER BY t.code, f.exercise_id, f.level, min(f.id)
 
 }  // namespace
 
-std::vector<CohortRow> cohort(Database& database, const std::string& trainee) {
+std::vector<CohortRow> cohort(Database& database, const std::string& trainee, bool deactivated) {
   sql::Statement rows(database.connection(), std::string(kFinished) + sql::kPassed +
                                                  " AS passed FROM attempt a"
                                                  " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
                                                  sql::decision() + kRows);
-  rows.bind(kPeakForceMetric).bind(kTimeMetric).bind(trainee);
+  rows.bind(kPeakForceMetric).bind(kTimeMetric).bind(trainee).bind(deactivated);
   std::vector<CohortRow> result;
   while (rows.step()) {
     CohortRow row;

@@ -31,7 +31,7 @@ struct CohortRow {
 int people_erased(Database& database);
 
 /// Rows by trainee code, exercise, level and first use of a rubric, without those whose training data were erased.
-/// @param trainee only this code; empty: all.
-std::vector<CohortRow> cohort(Database& database, const std::string& trainee = "");
+/// @param trainee only this code; empty: all, but for who is deactivated. @param deactivated those too.
+std::vector<CohortRow> cohort(Database& database, const std::string& trainee = "", bool deactivated = false);
 
 }  // namespace trocar

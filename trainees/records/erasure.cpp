@@ -104,7 +104,10 @@ int erase_identity(sqlite3* connection, const Erased& erased, const Author& auth
   for (const char* table : {"signature", "rating"}) erase_rows(connection, erased, table, kOwnWords, author);
   remove_rows(connection, erased, "note_seen", "note_id IN (SELECT id FROM note WHERE trainee_id = ?1)");
   const int notes = erase_rows(connection, erased, "note", "trainee_id = ?1", author);
-  for (const char* table : {"consent", "account"}) erase_rows(connection, erased, table, "trainee_id = ?1", author);
+  erase_rows(connection, erased, "withdrawal", "assignment_id IN (SELECT id FROM assignment WHERE trainee_id = ?1)",
+             author);
+  for (const char* table : {"consent", "account", "standing", "assignment"})
+    erase_rows(connection, erased, table, "trainee_id = ?1", author);
   for (const char* table : {"membership", "person"}) remove_rows(connection, erased, table, "trainee_id = ?1");
   return notes;
 }

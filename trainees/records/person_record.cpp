@@ -88,6 +88,10 @@ constexpr Part kOfAttempt[] = {
 constexpr Part kOfTrainee[] = {
     {"consents", "SELECT uuid, purpose, given, text, utc FROM consent WHERE trainee_id = ?1 ORDER BY uuid"},
     {"groups", "SELECT group_name FROM membership WHERE trainee_id = ?1 ORDER BY group_name"},
+    {"standings", "SELECT uuid, active, reason, printed, utc FROM standing WHERE trainee_id = ?1 ORDER BY uuid"},
+    {"assignments",
+     "SELECT a.uuid, programme, due, a.printed, a.utc, w.utc AS withdrawn_utc, w.reason AS withdrawn_reason FROM"
+     " assignment a LEFT JOIN withdrawal w ON w.assignment_id = a.id WHERE a.trainee_id = ?1 ORDER BY a.uuid"},
     {"sessions", "SELECT uuid, station, started_utc, ended_utc FROM session WHERE trainee_id = ?1 ORDER BY id"},
     {"notes",
      "SELECT n.uuid, a.uuid AS attempt, printed, text, n.utc, s.utc AS seen_utc FROM note n"
@@ -106,7 +110,9 @@ constexpr const char* kTrail =
     " OR subject IN (SELECT uuid FROM trainee WHERE id = ?1 UNION SELECT uuid FROM account WHERE trainee_id = ?1"
     " UNION SELECT uuid FROM attempt WHERE trainee_id = ?1 UNION SELECT uuid FROM note WHERE trainee_id = ?1"
     " UNION SELECT uuid FROM consent WHERE trainee_id = ?1 UNION SELECT uuid FROM erasure WHERE trainee_id = ?1"
-    " UNION SELECT uuid FROM certificate WHERE trainee_id = ?1"
+    " UNION SELECT uuid FROM certificate WHERE trainee_id = ?1 UNION SELECT uuid FROM standing WHERE trainee_id = ?1"
+    " UNION SELECT uuid FROM assignment WHERE trainee_id = ?1"
+    " UNION SELECT w.uuid FROM withdrawal w JOIN assignment a ON a.id = w.assignment_id WHERE a.trainee_id = ?1"
     " UNION SELECT r.uuid FROM revocation r JOIN certificate c ON c.id = r.certificate_id WHERE c.trainee_id = ?1"
     " UNION SELECT r.uuid FROM rating r JOIN attempt a ON a.id = r.attempt_id WHERE a.trainee_id = ?1"
     " UNION SELECT g.uuid FROM signature g JOIN attempt a ON a.id = g.attempt_id WHERE a.trainee_id = ?1"

@@ -25,16 +25,6 @@ std::string trainees_query() {
          sql::decision();
 }
 
-/// Enough to catch a name in the wrong place; whether an address is anybody's only a letter to it can tell.
-void check_address(const std::string& email) {
-  check_printed("e-mail address", email, kLongestAddress);
-  const std::size_t at = email.find('@');
-  if (at != std::string::npos && at > 0 && at + 1 < email.size() &&
-      email.find_first_of(" @", at + 1) == std::string::npos && email.find(' ') == std::string::npos)
-    return;
-  throw InputError("e-mail address \"" + email + "\": is none, such as name@example.org");
-}
-
 Trainee trainee_of(const sql::Statement& row) {
   Trainee trainee;
   trainee.id = row.integer(0);
@@ -68,6 +58,15 @@ void check_trainee_code(const std::string& code) {
   if (lower.starts_with("erased-")) {
     throw InputError("trainee code \"" + code + "\": \"erased-...\" stands for somebody whose identity was erased");
   }
+}
+
+void check_address(const std::string& email) {
+  check_printed("e-mail address", email, kLongestAddress);
+  const std::size_t at = email.find('@');
+  if (at != std::string::npos && at > 0 && at + 1 < email.size() &&
+      email.find_first_of(" @", at + 1) == std::string::npos && email.find(' ') == std::string::npos)
+    return;
+  throw InputError("e-mail address \"" + email + "\": is none, such as name@example.org");
 }
 
 Trainee TraineeStore::ensure_trainee(const std::string& code) {

@@ -23,6 +23,9 @@ struct Trainee {
 /// @throws InputError: a code is 1 to 32 letters, digits, '.', '-' or '_', beginning with a letter or digit, and not
 /// with "erased-".
 void check_trainee_code(const std::string& code);
+/// Enough to catch a name in the wrong place; whether an address is anybody's only a letter to it can tell.
+/// @throws InputError
+void check_address(const std::string& email);
 
 class TraineeStore {
  public:

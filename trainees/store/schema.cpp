@@ -137,7 +137,7 @@ CREATE TABLE device_calibration (
   utc    TEXT NOT NULL
 ) STRICT;
 
--- Courses and progress rules as TOML text; the highest version of a name holds.
+-- Programmes and progress rules as TOML text; the highest version of a name holds.
 CREATE TABLE curriculum (
   id      INTEGER PRIMARY KEY,
   uuid    TEXT NOT NULL UNIQUE,
@@ -555,6 +555,45 @@ WHEN EXISTS (SELECT 1 FROM metric_row WHERE id BETWEEN OLD.id << 10 AND OLD.id <
 BEGIN SELECT RAISE(ABORT, 'score: its metrics and sub-scores are there yet'); END;
 )sql";
 
+constexpr const char kProgrammes[] = R"sql(
+-- Whether a person takes part: the newest row of a trainee holds, and who has none does.
+CREATE TABLE standing (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  trainee_id INTEGER NOT NULL REFERENCES trainee(id),
+  active     INTEGER NOT NULL CHECK (active IN (0, 1)),
+  reason     TEXT NOT NULL,
+  author     TEXT NOT NULL,
+  printed    TEXT NOT NULL,
+  utc        TEXT NOT NULL
+) STRICT;
+CREATE INDEX standing_by_trainee ON standing(trainee_id, uuid, active);
+
+-- A programme (curriculum of that name) for one person or for a group, whoever is in it. due: "2026-06-30", '' without.
+CREATE TABLE assignment (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  trainee_id INTEGER REFERENCES trainee(id),
+  group_name TEXT NOT NULL,
+  programme  TEXT NOT NULL,
+  due        TEXT NOT NULL,
+  author     TEXT NOT NULL,
+  printed    TEXT NOT NULL,
+  utc        TEXT NOT NULL,
+  CHECK ((trainee_id IS NULL) = (group_name <> ''))
+) STRICT;
+
+CREATE TABLE withdrawal (
+  id            INTEGER PRIMARY KEY,
+  uuid          TEXT NOT NULL UNIQUE,
+  assignment_id INTEGER NOT NULL UNIQUE REFERENCES assignment(id),
+  reason        TEXT NOT NULL,
+  author        TEXT NOT NULL,
+  printed       TEXT NOT NULL,
+  utc           TEXT NOT NULL
+) STRICT;
+)sql";
+
 std::string guard(const std::string& table, const std::string& name, const std::string& when,
                   const std::string& words) {
   return "CREATE TRIGGER " + table + "_" + name + " BEFORE " + when + " BEGIN SELECT RAISE(ABORT, '" + table + ": " +
@@ -647,6 +686,22 @@ std::string written_rows() {
 }
 
 }  // namespace
+
+const char* programme_schema_sql() {
+  static const std::string kSql = [] {
+    std::string sql = kProgrammes;
+    for (const char* table : {"standing", "assignment", "withdrawal"}) sql += never_changed(table);
+    const std::string of_person = "SELECT 1 FROM erasure WHERE trainee_id = OLD.trainee_id";
+    for (const char* table : {"standing", "assignment"}) {
+      sql += never_deleted(table, of_person) + never_replaced(table, "uuid = NEW.uuid");
+    }
+    sql += never_deleted("withdrawal",
+                         "SELECT 1 FROM erasure e JOIN assignment a ON a.trainee_id = e.trainee_id"
+                         " WHERE a.id = OLD.assignment_id");
+    return sql + never_replaced("withdrawal", "uuid = NEW.uuid OR assignment_id = NEW.assignment_id");
+  }();
+  return kSql.c_str();
+}
 
 const char* schema_sql() {
   static const std::string kSql = std::string(kPeople) + kRules + kAttemptTables + kRowTables + kViews + kByName +

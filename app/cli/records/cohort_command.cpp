@@ -34,9 +34,10 @@ std::string cell_flags(const CohortRow& row, const std::vector<CohortLine>& line
 int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream& err) {
   using Align = TextTable::Align;
   Database database = open_database(options.database, OpenMode::kExisting, err);
-  const std::vector<CohortRow> rows = cohort(database, options.trainee);
+  const std::vector<CohortRow> rows = cohort(database, options.trainee, options.deactivated);
   CohortFilter filter;
   filter.trainee = options.trainee;
+  filter.deactivated = options.deactivated;
   const std::vector<CohortLine> lines = cohort_lines(database, rules_in_force(database), filter, utc_now());
   if (options.json) {
     out << cohort_json(rows, lines);
@@ -73,6 +74,7 @@ void add_cohort(CLI::App& parent, CommandAction& chosen) {
                                  [given] { return cohort_command(*given, std::cout, std::cerr); });
   cohort->add_option("--db", o.database, "Database file");
   cohort->add_option("--trainee", o.trainee, "One trainee only");
+  cohort->add_flag("--deactivated", o.deactivated, "People who are deactivated, too");
   cohort->add_flag("--json", o.json, "As JSON");
 }
 

@@ -11,6 +11,7 @@ struct CohortOptions {
   std::filesystem::path database;  ///< empty: the default path
   std::string trainee;             ///< empty: all
   bool json = false;
+  bool deactivated = false;  ///< those too
 };
 
 /// @return exit code 0

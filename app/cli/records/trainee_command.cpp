@@ -10,6 +10,7 @@
 #include "app/cli/records/store_json.h"
 #include "app/cli/text_table.h"
 #include "haptics/input_error.h"
+#include "trainees/desk/queries/programme_query.h"
 #include "trainees/records/attempt_identity.h"
 
 namespace trocar {
@@ -70,6 +71,14 @@ void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
   table.print(out);
 }
 
+/// What programmes ask of them, the most urgent first.
+void print_next_steps(const std::vector<Reminder>& steps, std::ostream& out) {
+  for (const Reminder& step : steps)
+    out << "due " << (step.due.empty() ? "without a date" : step.due) << ": " << step.step.exercise_id << " "
+        << step.step.level << ", " << step.missing << " (" << step.programme << ", " << step_state_words(step.state)
+        << ")\n";
+}
+
 }  // namespace
 
 int trainee_add(const TraineeOptions& options, std::ostream& out, std::ostream& err) {
@@ -127,6 +136,7 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
   print_person(*trainee, out);
   out << "since " << cell_time(trainee->created_utc) << " UTC\n"
       << trainee->attempts << " attempts, " << trainee->passes << " passed\n";
+  print_next_steps(next_steps(database, trainee->code, utc_now()), out);
   if (!lines.empty()) print_judgements(lines, out << '\n');
   if (!attempts.empty()) print_attempts(attempts, out << '\n');
   return 0;

@@ -1,7 +1,6 @@
 #include "app/cli/records/trainee_rights.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -26,13 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSomethingLeft = 3;
-
-/// At the command line nobody signs in: the name is what is said.
-Author author_of(const TraineeRightsOptions& options) {
-  if (!options.author.empty()) return {"", options.author};
-  const char* user = std::getenv("USER");
-  return {"", user != nullptr && *user != '\0' ? user : "instructor"};
-}
 
 Trainee required(Database& database, const std::string& code) {
   const auto trainee = TraineeStore(database).find(code);
@@ -77,7 +69,7 @@ void print_previews(const std::vector<ErasurePreview>& previews, bool training, 
 
 int erase_one(Database& database, const std::string& code, const TraineeRightsOptions& options, const std::string& rule,
               std::ostream& out, std::ostream& err) {
-  const ErasureReport report = erase_trainee(database, code, kind_of(options), rule, author_of(options));
+  const ErasureReport report = erase_trainee(database, code, kind_of(options), rule, author_said(options.author));
   const auto notes = static_cast<std::size_t>(report.notes), attempts = static_cast<std::size_t>(report.attempts);
   out << code << ": identity erased, " << counted(notes, "note") << " with it; " << counted(attempts, "attempt")
       << (options.training ? " emptied, " + counted(report.recordings.size(), "file") + " of recordings removed"
@@ -144,7 +136,8 @@ int trainee_note(const TraineeRightsOptions& options, std::ostream& out, std::os
   } else if (!options.attempt.empty()) {
     attempt = AttemptStore(database).find(options.attempt).uuid;
   }
-  out << AssessmentStore(database).add_note(options.code, attempt, options.text, author_of(options)).uuid << '\n';
+  out << AssessmentStore(database).add_note(options.code, attempt, options.text, author_said(options.author)).uuid
+      << '\n';
   return 0;
 }
 
@@ -153,7 +146,7 @@ int trainee_consent(const TraineeRightsOptions& options, std::ostream& out, std:
   ConsentStore consents(database);
   const std::string code = required(database, options.code).code;
   if (!options.purpose.empty())
-    consents.record(code, options.purpose, !options.withdrawn, options.text, author_of(options));
+    consents.record(code, options.purpose, !options.withdrawn, options.text, author_said(options.author));
   std::set<std::string> told;
   TextTable table({{"purpose"}, {"consent"}, {"since (UTC)"}, {"words"}});
   for (const Consent& consent : consents.of(code)) {

@@ -15,6 +15,7 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/board_numbers.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/records/verdicts.h"
 
@@ -193,6 +194,7 @@ std::string PracticeModel::sign_in(const std::string& code, const std::string& p
   if (code == kDemonstration || code == kGuest)
     return s.words("This code is kept for runs that are nobody's; take another.");
   try {
+    if (!StandingStore(*s.database).of(code).active) return s.words("This code is deactivated: ask your teacher.");
     if (const auto account = s.guarded(code))
       if (std::string wrong = s.check_pin(*account, pin); !wrong.empty()) return wrong;
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;

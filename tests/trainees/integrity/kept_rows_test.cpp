@@ -16,6 +16,8 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/programmes.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -58,6 +60,11 @@ class KeptRows : public TemporaryFolder {
     assessments.override_verdict(attempts_[0], false, kWhy, kAuthor);
     assessments.revoke(assessments.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kWhy, kAuthor);
     ConsentStore(database).record("T-1", "research", true, "I agree.", kAuthor);
+    ProgrammeStore programmes(database);
+    programmes.save("Basics", "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n", kAuthor);
+    programmes.withdraw(programmes.assign("Basics", "T-1", "", "2026-06-30", kAuthor).uuid, "moved", kAuthor);
+    StandingStore(database).set_active({"T-2"}, false, "left", kAuthor);
+    StandingStore(database).set_active({"T-2"}, true, "", kAuthor);
     AccountStore(database).add("i.adler", "Ida Adler", Role::kInstructor, "", "correct horse", "");
     TraineeStore(database).ensure_trainee("T-3");
     erase_trainee(database, "T-3", ErasureKind::kIdentity, "request of the person", kAuthor);
@@ -223,7 +230,7 @@ std::string changed(const Column& c) {
       {"attempt.status", "'timeout'"}, {"event.severity", "'minor'"}, {"account.role", "'administrator'"},
       {"erasure.kind", "'training'"},  {"score.value", "value / 2"},  {"signature.meaning", "'review'"}};
   if (const auto at = kSpecial.find(name); at != kSpecial.end()) return at->second;
-  for (const char* flag : {"passed", "gate", "given", "own", "organ_synthetic"})
+  for (const char* flag : {"active", "passed", "gate", "given", "own", "organ_synthetic"})
     if (c.name == flag) return "1 - " + c.name;
   if (c.name == "sha256") return "substr(sha256, 2) || substr(sha256, 1, 1)";
   if (c.type == "TEXT") return "coalesce(" + c.name + ", '') || 'x'";

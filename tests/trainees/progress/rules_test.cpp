@@ -115,11 +115,6 @@ TEST(ProgressRules, WrongOnesAreToldWithLineAndColumn) {
   }
 }
 
-TEST(ProgressRules, ACurriculumsCoursesArePassedOver) {
-  EXPECT_EQ(read_progress_rules("version = \"3\"\n[[course]]\nexercise = \"surface-touch\"\n", "mine.toml").version,
-            "3");
-}
-
 TEST(ProgressRules, NoRetentionIsAllowed) {
   EXPECT_TRUE(read_progress_rules("version = \"1\"\n[retention]\ndays = []\n", "mine.toml").retention_days.empty());
 }

@@ -161,3 +161,31 @@ document.querySelectorAll('img.patient').forEach(follower);
     if (link.closest('#events')) document.getElementById('moment').scrollIntoView();
   });
 })();
+// A list read out of a file into the field that a person may look at; without script it is pasted there.
+document.querySelectorAll('[data-reads]').forEach(function (part) {
+  var file = part.querySelector('input'), said = part.querySelector('output'), field = document.getElementById(part.getAttribute('data-reads'));
+  part.hidden = false;
+  file.addEventListener('change', function () {
+    if (!file.files.length) return;
+    var reader = new FileReader();
+    reader.onload = function () {
+      var bytes = new Uint8Array(reader.result), as = 'utf-8';
+      if (bytes.length > 900000) { said.textContent = 'This file is too large: at most 900 kB are taken.'; return; }
+      if (bytes[0] === 0xFF && bytes[1] === 0xFE) as = 'utf-16le';
+      else if (bytes[0] === 0xFE && bytes[1] === 0xFF) as = 'utf-16be';
+      try { field.value = new TextDecoder(as, { fatal: true }).decode(bytes); }
+      catch (error) { as = 'windows-1252'; field.value = new TextDecoder(as).decode(bytes); }
+      said.textContent = 'Read as ' + as.toUpperCase() + (as === 'utf-8' ? '.' : ': look at the letters of the names.');
+    };
+    reader.onerror = function () { said.textContent = 'This file cannot be read.'; };
+    reader.readAsArrayBuffer(file.files[0]);
+  });
+});
+// Everybody in a list at once.
+document.querySelectorAll('[data-all]').forEach(function (part) {
+  var all = part.querySelector('input'), names = part.getAttribute('data-all');
+  part.hidden = false;
+  all.addEventListener('change', function () {
+    all.form.querySelectorAll('input[type=checkbox]').forEach(function (one) { if (one.name.indexOf(names) === 0) one.checked = all.checked; });
+  });
+});

@@ -46,7 +46,8 @@ std::string nav(const Frame& frame) {
   if (!frame.own_code.empty())
     out += link_html("/trainee/" + url_part(frame.own_code), "My page");
   else
-    out += link_html("/", "Cohort") + link_html("/why", "Why") + link_html("/curriculum", "Curriculum") +
+    out += link_html("/", "Cohort") + link_html("/why", "Why") + link_html("/roster", "Roster") +
+           link_html("/programmes", "Programmes") + link_html("/curriculum", "Curriculum") +
            link_html("/station", "Station");
   if (frame.administrator) out += link_html("/accounts", "Accounts") + link_html("/record", "Record");
   return out + "</nav>";

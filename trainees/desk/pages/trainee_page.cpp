@@ -219,9 +219,11 @@ std::string due_dates(const TraineeView& view) {
   std::string rows;
   for (const DueDate& due : view.due)
     rows += "<tr><th scope=\"row\">" + escape_html(due.exercise) + "</th>" + cell(due.level) + "<td>" +
-            day_html(due.utc) + (due.over ? " " + badge(Flag::kRetentionDue) : "") + "</td>" + cell(due.why) + "</tr>";
+            (due.utc.empty() ? "no date" : day_html(due.utc)) + (due.over ? " " + badge(Flag::kRetentionDue) : "") +
+            "</td>" + cell(due.why) + "</tr>";
   return rows.empty() ? "<p>Nothing is due.</p>"
-                      : table("Attempts for keeping", head_cells({"Exercise", "Level", "Due", "Why"}), rows);
+                      : table("Attempts for keeping, and steps of programmes",
+                              head_cells({"Exercise", "Level", "Due", "Why"}), rows);
 }
 
 constexpr const char* kErased =

@@ -7,6 +7,7 @@
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/progress/calendar.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/verdicts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -139,6 +140,7 @@ class CohortPass {
         people_(desk::people(connection_)),
         certificates_(desk::certificates_held(database)),
         erased_(desk::training_erased(connection_)),
+        deactivated_(deactivated(connection_)),
         facts_(read_facts(database)),
         newest_(connection_, "SELECT uuid, exercise_version, started_utc FROM attempt WHERE id = ?") {}
 
@@ -171,6 +173,7 @@ class CohortPass {
     const std::string& code = filter_.trainee;
     if (!code.empty() && !std::equal(code.begin(), code.end(), person.code.begin(), person.code.end(), same_code))
       return false;
+    if (code.empty() && !filter_.deactivated && deactivated_.contains(person.id)) return false;
     return filter_.group.empty() ||
            std::find(person.groups.begin(), person.groups.end(), filter_.group) != person.groups.end();
   }
@@ -283,7 +286,7 @@ class CohortPass {
   const std::string& now_utc_;
   std::map<std::int64_t, desk::Person> people_;
   std::map<desk::CertifiedSkill, desk::HeldCertificate> certificates_;
-  std::set<std::int64_t> erased_;
+  std::set<std::int64_t> erased_, deactivated_;
   ByRow<Facts> facts_;  ///< by attempt; 0 takes those of scores again, which nobody asks for
   sql::Statement newest_;
   std::vector<Draft> curve_;

@@ -7,6 +7,7 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/markup/html.h"
 #include "trainees/progress/benchmarks.h"
+#include "trainees/progress/programme.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/trainee_store.h"
@@ -245,6 +246,8 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
   const CurriculumStore store(desk.database);
   CurriculumView view;
   view.versions = store.list();
+  std::erase_if(view.versions,
+                [](const Curriculum& one) { return is_programme(one.toml); });  // they have their own pages
   view.name = argument(request.query, "name", kRulesName);
   const std::string version = argument(request.query, "version");
   view.text = desk.sources.shipped_rules;

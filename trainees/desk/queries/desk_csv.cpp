@@ -1,6 +1,8 @@
 #include <cmath>
 
 #include "trainees/desk/pages/pages.h"
+#include "trainees/desk/queries/programme_views.h"
+#include "trainees/desk/queries/roster_views.h"
 #include "trainees/markup/csv.h"
 
 namespace trocar::review {
@@ -9,6 +11,12 @@ namespace {
 /// "" for nothing, and for what is no finite number.
 std::string csv_number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? trocar::csv_number(*value) : "";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : "; ") + word;
+  return out;
 }
 
 std::string flags(const std::vector<Judgement>& judgements) {
@@ -49,6 +57,44 @@ std::string trainee_csv(const TraineeView& view) {
       out += line(curve.key, std::to_string(i + 1), curve.points[i]);
   for (const EndedAttempt& ended : view.ended_by_device)
     out += line(ended.key, "", ended.point);  // they count as no try
+  return out;
+}
+
+std::string roster_csv(const RosterView& view) {
+  std::string out =
+      csv_line({"code", "name", "email", "group", "all_groups", "attempts", "last_utc", "login", "state"});
+  for (const RosterEntry& one : view.people)
+    out += csv_line({csv_text(one.code), csv_text(one.name), csv_text(one.email),
+                     csv_text(one.groups.empty() ? "" : one.groups.front()), csv_text(joined(one.groups)),
+                     std::to_string(one.attempts), csv_text(one.last_utc), csv_text(one.login),
+                     one.active ? "active" : "deactivated"});
+  return out;
+}
+
+std::string grid_csv(const GridView& view) {
+  std::string out = csv_line({"code", "name", "groups", "active", "programme", "step", "exercise", "level", "rule",
+                              "state", "attempts", "passes", "days", "deadline", "missing"});
+  for (const ProgrammeLine& line : view.grid.lines) {
+    for (std::size_t at = 0; at < line.cells.size(); ++at) {
+      const ProgrammeStep& step = view.grid.programme.steps[at];
+      const ProgrammeCell& cell = line.cells[at];
+      out +=
+          csv_line({csv_text(line.code), csv_text(line.name), csv_text(joined(line.groups)), line.active ? "1" : "0",
+                    csv_text(view.grid.name), std::to_string(at + 1), csv_text(step.exercise_id), csv_text(step.level),
+                    csv_text(rule_words(step)), step_state_key(cell.state), std::to_string(cell.progress.attempts),
+                    std::to_string(cell.progress.passes), std::to_string(cell.progress.days),
+                    cell.due_s ? due_day(*cell.due_s) : "", csv_text(missing_words(step, cell.progress))});
+    }
+  }
+  return out;
+}
+
+std::string reminders_csv(const std::vector<Reminder>& lines) {
+  std::string out = csv_line({"code", "name", "group", "programme", "step", "deadline", "days", "state", "missing"});
+  for (const Reminder& one : lines)
+    out += csv_line({csv_text(one.code), csv_text(one.name), csv_text(joined(one.groups)), csv_text(one.programme),
+                     csv_text(one.step.exercise_id + " " + one.step.level), one.due, std::to_string(one.days),
+                     step_state_key(one.state), csv_text(one.missing)});
   return out;
 }
 

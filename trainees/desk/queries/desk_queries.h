@@ -31,6 +31,7 @@ ProgressRules rules_in_force(Database& database);
 struct CohortFilter {
   std::string group = {}, exercise = {}, level = {}, trainee = {};
   std::optional<Flag> flag = {};  ///< lines with that judgement among theirs
+  bool deactivated = false;       ///< people who are deactivated too; of one trainee always
 };
 
 inline constexpr int kSparkScores = 20, kRowsForLosses = 5;

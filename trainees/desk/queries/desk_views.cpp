@@ -10,10 +10,12 @@
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/level_reader.h"
+#include "trainees/desk/queries/programme_query.h"
 #include "trainees/desk/server/desk_memory.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/signing.h"
+#include "trainees/records/standings.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review {
@@ -62,7 +64,10 @@ void add_due(TraineeView& view, const CurveDetail& detail, const std::string& ti
 }
 
 /// People who are registered and have no attempt of what is asked for, after all others.
-void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, std::string>& titles) {
+void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, std::string>& titles,
+                     bool with_deactivated) {
+  const std::set<std::int64_t> gone =
+      with_deactivated ? std::set<std::int64_t>{} : deactivated(desk.database.connection());
   std::set<std::string> started;
   for (const CohortEntry& line : view.lines) started.insert(line.code);
   const std::set<std::int64_t> erased = desk::training_erased(desk.database.connection());
@@ -70,7 +75,9 @@ void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, s
   for (const auto& [id, person] : desk::people(desk.database.connection())) {
     const bool wanted = view.asked.group.empty() ||
                         std::find(person.groups.begin(), person.groups.end(), view.asked.group) != person.groups.end();
-    if (!wanted || erased.contains(id) || started.contains(person.code) || person.code.starts_with("erased-")) continue;
+    if (!wanted || erased.contains(id) || gone.contains(id) || started.contains(person.code) ||
+        person.code.starts_with("erased-"))
+      continue;
     CohortEntry entry;
     entry.code = person.code;
     entry.name = person.name;
@@ -176,8 +183,11 @@ int whole_number(const std::string& text, int otherwise) {
 
 std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter,
                                  const std::string& now_utc) {
-  std::vector<CohortLine> lines = desk.memory ? filtered(desk.memory->lines(desk.database, now_utc), filter)
-                                              : cohort_lines(desk.database, rules, filter, now_utc);
+  std::vector<CohortLine> lines;
+  if (desk.memory && !filter.deactivated) lines = filtered(desk.memory->lines(desk.database, now_utc), filter);
+  // What is kept leaves out who is deactivated.
+  if (!desk.memory || filter.deactivated || (lines.empty() && !filter.trainee.empty()))
+    lines = cohort_lines(desk.database, rules, filter, now_utc);
   LevelReader levels(desk);
   for (CohortLine& line : lines) {
     if (!line.harm) continue;
@@ -231,6 +241,13 @@ std::vector<std::string> distinct_attempt_values(Database& database, const std::
   return {values.begin(), values.end()};
 }
 
+std::vector<std::pair<std::string, std::string>> tried_levels(Database& database) {
+  std::set<std::pair<std::string, std::string>> values;
+  for (const desk::Combination& one : desk::combinations(database.connection()))
+    values.emplace(one.exercise_id, one.level);
+  return {values.begin(), values.end()};
+}
+
 CohortView cohort_view(Desk& desk, const Request& request) {
   CohortView view;
   view.asked = {argument(request.query, "group"), argument(request.query, "exercise"),
@@ -249,6 +266,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   filter.group = view.asked.group;
   filter.exercise = view.asked.exercise_id;
   filter.level = view.asked.level;
+  filter.deactivated = argument(request.query, "deactivated") == "yes";
   LevelReader levels(desk);
   for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
     const auto title = titles.find(line.key.exercise_id);
@@ -273,7 +291,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
                           line.key.rubric_sha256,
                           std::move(line.harm)});
   }
-  add_not_started(view, desk, titles);
+  add_not_started(view, desk, titles, filter.deactivated);
   return view;
 }
 
@@ -326,6 +344,11 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
     add_due(view, curve, view.curves.back().title);
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
+  for (const Reminder& step : next_steps(desk.database, view.code, request.now_utc)) {
+    const auto title = titles.find(step.step.exercise_id);
+    view.due.push_back({title == titles.end() ? step.step.exercise_id : title->second, step.step.level, step.due,
+                        "programme " + step.programme + ": " + step.missing, step.state == StepState::kOverdue});
+  }
   view.chosen = chosen_curve(view.curves, request);
   view.page = whole_number(argument(request.query, "page"), 1);
   if (view.chosen < view.curves.size())

@@ -51,6 +51,8 @@ BenchmarkProposal propose(Desk& desk, const BenchmarkQuestion& question, const s
 
 /// id and title of every exercise that was tried.
 std::vector<Choice> exercise_choices(Database& database);
+/// Exercise and level of all attempts, each once.
+std::vector<std::pair<std::string, std::string>> tried_levels(Database& database);
 std::string exercise_title(Database& database, const std::string& id);
 std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column);  ///< level or hand
 

@@ -91,6 +91,13 @@ constexpr const char* kSubjects[] = {
     "SELECT 'account ' || login, '/accounts' FROM account WHERE uuid = ?",
     "SELECT name || ', version ' || version, '/curriculum' FROM curriculum WHERE uuid = ?",
     "SELECT 'benchmark of ' || exercise_id || ' ' || level, '/curriculum' FROM benchmark WHERE uuid = ?",
+    "SELECT CASE active WHEN 1 THEN 'reactivated: ' ELSE 'deactivated: ' END || k.code, '/trainee/' || k.code FROM"
+    " standing s JOIN known_trainee k ON k.id = s.trainee_id WHERE s.uuid = ?",
+    "SELECT 'programme ' || programme || ' for ' || coalesce(k.code, 'group ' || group_name), '/programmes' FROM"
+    " assignment a LEFT JOIN known_trainee k ON k.id = a.trainee_id WHERE a.uuid = ?",
+    "SELECT 'programme ' || programme || ' for ' || coalesce(k.code, 'group ' || group_name), '/programmes' FROM"
+    " withdrawal w JOIN assignment a ON a.id = w.assignment_id LEFT JOIN known_trainee k ON k.id = a.trainee_id"
+    " WHERE w.uuid = ?",
     "SELECT 'consent of ' || k.code, '/trainee/' || k.code FROM consent c JOIN known_trainee k ON k.id = c.trainee_id"
     " WHERE c.uuid = ?"};
 

@@ -3,6 +3,7 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/routes/page_routes.h"
 #include "trainees/desk/server/path_redaction.h"
+#include "trainees/progress/programme.h"
 
 namespace trocar::review {
 namespace {
@@ -27,6 +28,8 @@ Response rules(const Request& request, Desk& desk) {
     const ProgressRules read = read_progress_rules(view.text, view.name);
     if (argument(request.form, "do") == "save") {
       refuse_taken_version(desk, view.text, read);
+      if (const auto last = CurriculumStore(desk.database).newest(view.name); last && is_programme(last->toml))
+        throw InputError("\"" + view.name + "\": is the name of a programme; give the rules another");
       CurriculumStore(desk.database).add(view.name, view.text, author_of(request));
       return see("/curriculum?name=" + url_part(view.name) + "#editor");
     }

@@ -13,6 +13,8 @@ std::vector<Route> assessment_routes();  ///< notes, signatures, overrides, cert
 std::vector<Route> film_routes();        ///< films of attempts
 std::vector<Route> station_routes();     ///< the live view, messages
 std::vector<Route> curriculum_routes();  ///< rules, benchmarks, groups
+std::vector<Route> roster_routes();      ///< people, lists of them, cards to sign in with
+std::vector<Route> programme_routes();   ///< programmes, assignments, the grid, who is late
 std::vector<Route> password_routes();    ///< one's own password
 std::vector<Route> admin_routes();       ///< accounts, the record itself, its audit trail, retention, the demo's end
 

@@ -60,6 +60,12 @@ struct LevelFacts {
   PoseLimits pose = {};                             ///< of pens
 };
 
+/// An exercise of the program with its levels, in their order.
+struct ExerciseLevels {
+  std::string id = {}, title = {};
+  std::vector<std::string> levels = {};
+};
+
 /// A map of an attempt on its scene.
 struct HeatQuestion {
   bool of_force = false;  ///< else of time
@@ -99,7 +105,8 @@ struct DeskSources {
   std::function<std::vector<GripLimits>(const std::string& exercise_text, const std::string& level, int board)>
       grip_limits = {};
   std::vector<std::string> metrics =
-      {};                          ///< names that benchmarks may be of; empty: those that the exercise's attempts have
+      {};  ///< names that benchmarks may be of; empty: those that the exercise's attempts have
+  std::vector<ExerciseLevels> exercises = {};  ///< that programmes may have steps of; besides those that were tried
   std::string shipped_rules = {};  ///< text of the progress rules that came with the program, where the editor begins
   /// How the desk stands with the centre whose record it serves. Called by several threads at once.
   std::function<ReplicaStatus()> central = {};

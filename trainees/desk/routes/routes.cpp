@@ -14,8 +14,8 @@ std::vector<Route> desk_routes() {
       {.method = "GET", .path = "/icon.svg", .audience = Audience::kEverybody, .answer = [](const Request&, Desk&) {
          return Response{.type = "image/svg+xml", .body = desk_icon()};
        }});
-  for (const auto& part : {page_routes(), assessment_routes(), curriculum_routes(), report_routes(), password_routes(),
-                           admin_routes(), station_routes(), film_routes()})
+  for (const auto& part : {page_routes(), assessment_routes(), curriculum_routes(), roster_routes(), programme_routes(),
+                           report_routes(), password_routes(), admin_routes(), station_routes(), film_routes()})
     out.insert(out.end(), part.begin(), part.end());
   return out;
 }

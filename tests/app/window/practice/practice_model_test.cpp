@@ -14,6 +14,7 @@
 #include "tests/app/window/pages/practice_bench.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
+#include "trainees/records/standings.h"
 
 namespace trocar::practice_model_test {
 namespace {
@@ -117,6 +118,19 @@ TEST(PracticeModel, AStationThatAsksForThePinTakesTheRightOneAndWaitsAfterEachWr
   Database database(bench.options().database, OpenMode::kExisting);
   AccountStore(database).set_disabled("ann", true, "");
   EXPECT_EQ(model->sign_in("T-1", "580274"), "The account of this code is disabled: ask your teacher.");
+}
+
+TEST(PracticeModel, WhoIsDeactivatedDoesNotSignIn) {
+  const PracticeBench bench;
+  const auto model = bench.model();
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  model->sign_out();
+  Database database(bench.options().database, OpenMode::kExisting);
+  StandingStore(database).set_active({"T-1"}, false, "", {"", "x"});
+  EXPECT_EQ(model->sign_in("t-1"), "This code is deactivated: ask your teacher.");
+  EXPECT_TRUE(model->is_guest());
+  StandingStore(database).set_active({"T-1"}, true, "", {"", "x"});
+  EXPECT_EQ(model->sign_in("T-1"), "");
 }
 
 TEST(PracticeModel, OptionsChooseTraineeExerciseAndLevel) {

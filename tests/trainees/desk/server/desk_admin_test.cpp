@@ -57,7 +57,7 @@ TEST_F(DeskAdmin, PagesAreForAdministratorsOnly) {
     }
   }
   EXPECT_EQ(pages, 10);
-  EXPECT_EQ(forms, 7);
+  EXPECT_EQ(forms, 8);
   EXPECT_NE(page("/", adam).find("/sign-out"), std::string::npos);
   EXPECT_NE(page("/", adam).find("href=\"/accounts\""), std::string::npos);
   EXPECT_EQ(page("/", ines).find("href=\"/accounts\""), std::string::npos) << "no link to what is not allowed";
