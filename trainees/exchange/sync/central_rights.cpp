@@ -39,7 +39,8 @@ constexpr Function kFunctions[] = {
      "SELECT is_owner() OR EXISTS (SELECT 1 FROM login WHERE name = session_user AND kind = 'desk')"},
     {"require_own(wanted text) RETURNS void LANGUAGE plpgsql",
      "BEGIN IF NOT is_owner() AND NOT EXISTS (SELECT 1 FROM station WHERE uuid = wanted AND login = session_user) THEN"
-     " RAISE EXCEPTION 'station % does not belong to the login %', wanted, session_user USING ERRCODE = '42501';"
+     " RAISE EXCEPTION 'station % does not belong to the login % (the owner gives it: trocar sync admit --station)', "
+     "wanted, session_user USING ERRCODE = '42501';"
      " END IF; END"},
     {"announce(wanted text, called text) RETURNS bigint LANGUAGE plpgsql",
      "BEGIN INSERT INTO station (uuid, name, login) VALUES (wanted, called, session_user) ON CONFLICT DO NOTHING;"

@@ -235,6 +235,23 @@ TEST_F(CentralAttack, ARecordThatWasRewrittenOrPutBackIsFoundByItsWitness) {
   EXPECT_NE(report.told[0].find("this login pushed as station south"), std::string::npos) << report.told[0];
 }
 
+TEST_F(CentralAttack, WhatIsAddedToItsOwnTrailShowsAtItsNextPush) {
+  EXPECT_EQ(
+      attack(filled("INSERT INTO audit (station, position, utc, actor, action, subject, detail, prev_hash, row_hash)"
+                    " VALUES ('OWN', 9999, '', '', 'note added', '', '', '', '')")),
+      "");
+  Database south = station("south");
+  const std::string told = message_of<InputError>([&] { come(south, south_); });
+  EXPECT_NE(told.find("is not the one that was pushed, at position 9999"), std::string::npos) << told;
+}
+
+TEST_F(CentralAttack, OnlyADeskSaysWhoIsTheSamePerson) {
+  const auto link = [&](const CentralAddress& as) { link_people(as, "T-north@north", "T-south@south", true, "me"); };
+  EXPECT_NE(message_of<InputError>([&] { link(south_); }).find("only a desk's login"), std::string::npos);
+  link(admitted(central_, "desk_" + database_name(), "desk"));
+  EXPECT_EQ(one("SELECT count(*) FROM holding_link"), "1");
+}
+
 TEST_F(CentralAttack, AFalseHeadIsKnownByItsSignature) {
   Database south = station("south");
   EXPECT_EQ(attack("INSERT INTO head (station, position, row_hash, utc, key, signature) SELECT station, 9999, row_hash,"
