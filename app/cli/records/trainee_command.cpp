@@ -12,6 +12,7 @@
 #include "haptics/input_error.h"
 #include "trainees/desk/queries/programme_query.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/standings.h"
 
 namespace trocar {
 namespace {
@@ -111,11 +112,13 @@ int trainee_list(const TraineeOptions& options, std::ostream& out, std::ostream&
     out << trainees_json(trainees);
     return 0;
   }
+  const std::set<std::int64_t> away = deactivated(database.connection());
   TextTable table(
-      {{"trainee"}, {"attempts", Side::kRight}, {"passes", Side::kRight}, {"last (UTC)"}, {"since (UTC)"}});
+      {{"trainee"}, {"attempts", Side::kRight}, {"passes", Side::kRight}, {"last (UTC)"}, {"since (UTC)"}, {"state"}});
   for (const Trainee& trainee : trainees) {
     table.add({trainee.code, std::to_string(trainee.attempts), std::to_string(trainee.passes),
-               cell_time(trainee.last_utc), cell_time(trainee.created_utc)});
+               cell_time(trainee.last_utc), cell_time(trainee.created_utc),
+               away.contains(trainee.id) ? "deactivated" : ""});
   }
   table.print(out);
   return 0;
