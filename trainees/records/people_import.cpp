@@ -80,6 +80,8 @@ ImportRow row_of(const CsvRow& row, const std::map<ImportColumn, std::size_t>& c
 void check_row(const ImportRow& row) {
   if (row.code.empty()) throw InputError("has no code");
   check_trainee_code(row.code);
+  for (const char* taken : {"guest", "demonstration", "unnamed-", "erased-"})
+    if (small(row.code).starts_with(taken)) throw InputError("\"" + row.code + "\" is a code that the program gives");
   if (!row.name.empty()) check_printed("name", row.name);
   if (!row.email.empty()) check_address(row.email);
   if (!row.group.empty()) check_printed("group", row.group, kLongestGroup);

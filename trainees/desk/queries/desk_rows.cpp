@@ -49,15 +49,6 @@ std::map<std::int64_t, Person> people(sqlite3* connection) {
   return out;
 }
 
-std::set<CertifiedSkill> skills_certified(sqlite3* connection) {
-  std::set<CertifiedSkill> out;
-  sql::Statement rows(connection,
-                      "SELECT c.trainee_id, c.exercise_id, c.level FROM certificate c LEFT JOIN revocation r"
-                      " ON r.certificate_id = c.id WHERE r.id IS NULL");
-  while (rows.step()) out.insert({rows.integer(0), rows.text(1), rows.text(2)});
-  return out;
-}
-
 std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database) {
   std::map<CertifiedSkill, HeldCertificate> out;
   sql::Statement trainee(database.connection(), "SELECT trainee_id FROM certificate WHERE uuid = ?");

@@ -33,8 +33,6 @@ struct HeldCertificate {
   std::string utc = {};
   std::string in_question = {};  ///< why it may not stand (trainees/records/certificate_standing.h)
 };
-/// For what a certificate is held, whatever it stands on now.
-std::set<CertifiedSkill> skills_certified(sqlite3* connection);
 /// Newest certificate of each that was not withdrawn.
 std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database);
 

@@ -96,7 +96,7 @@ void read_harm(sqlite3* connection, const std::vector<std::int64_t>& attempts, H
 
 bool worse(const Harm& a, const Harm& b) {
   const auto size = [](const Harm& h) {
-    return std::tuple(h.critical(), h.over_limit(), h.count(), h.unsafe, h.unsafe - h.unsafe_before);
+    return std::tuple(h.critical(), std::max(1.0, h.over_limit()), h.count(), h.unsafe, h.unsafe - h.unsafe_before);
   };
   return size(a) > size(b);
 }

@@ -35,7 +35,7 @@ struct Harm {
 /// Fills events and gates. @param attempts rows of the window.
 void read_harm(sqlite3* connection, const std::vector<std::int64_t>& attempts, Harm& harm);
 
-/// Worse first: critical events, then how far over the limit, then the number of events, then unsafe attempts, then how
+/// Worse first: critical events, then how far over the limit (under it, or where none is known, nothing), then the number of events, then unsafe attempts, then how
 /// many more they are than before.
 bool worse(const Harm& a, const Harm& b);
 

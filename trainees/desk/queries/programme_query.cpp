@@ -175,7 +175,8 @@ class GridMaker {
                 [](const StepAttempt& a, const StepAttempt& b) { return a.row < b.row; });
       ProgrammeCell& cell = out_.lines[i].cells[at];
       cell.progress = progress_of(step, attempts[i], board_of);
-      const bool certified = certificates_.contains({ids_[i], step.exercise_id, step.level});
+      const auto held = certificates_.find({ids_[i], step.exercise_id, step.level});
+      const bool certified = held != certificates_.end() && held->second.in_question.empty();
       cell.state = state_of(step, cell.progress, certified, cell.due_s, now_s_);
     }
   }
@@ -187,7 +188,7 @@ class GridMaker {
   ProgrammeGrid out_ = {};
   std::map<std::int64_t, std::size_t> line_of_ = {};
   std::vector<std::int64_t> ids_ = {};  ///< of the lines, while they are filled
-  std::set<desk::CertifiedSkill> certificates_ = desk::skills_certified(connection_);
+  std::map<desk::CertifiedSkill, desk::HeldCertificate> certificates_ = desk::certificates_held(database_);
 };
 
 Reminder reminder_of(const ProgrammeGrid& grid, const ProgrammeLine& line, std::size_t at, std::int64_t now_s) {

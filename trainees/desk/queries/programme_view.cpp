@@ -87,6 +87,9 @@ ProgrammeView programme_view(Desk& desk, const std::string& name) {
   view.name = name;
   view.exercises = step_choices(desk);
   view.inputs = distinct_attempt_values(desk.database, "hand");
+  std::erase_if(view.inputs, [](const std::string& input) {
+    return std::find(std::begin(kPersonsInputs), std::end(kPersonsInputs), input) == std::end(kPersonsInputs);
+  });
   const auto kept = CurriculumStore(desk.database).newest(name);
   if (kept && !is_programme(kept->toml)) throw InputError("\"" + name + "\": is the name of rules of progress");
   if (!kept) return view;

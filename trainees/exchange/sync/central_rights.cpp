@@ -118,8 +118,12 @@ std::string both(const std::string& one, const std::string& other) { return one 
 std::vector<Policy> policies() {
   const std::string all = "(SELECT trocar.may_all())", own = kOwnStation;
   std::vector<Policy> out;
-  for (const CarriedTable& table : carried_bases()) out.push_back({table.name, quoted_columns(table), own});
-  out.push_back({carried_attempt().name, quoted_columns(carried_attempt()), own});
+  // A row that no program writes would stop every desk that reads it.
+  const std::string is_uuid = "uuid ~ '^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$'";
+  for (const CarriedTable& table : carried_bases())
+    out.push_back({table.name, quoted_columns(table), table.name == "trainee" ? both(own, is_uuid) : own});
+  out.push_back({carried_attempt().name, quoted_columns(carried_attempt()),
+                 both(both(own, is_uuid), all + " OR trainee_uuid IN (SELECT t.uuid FROM trocar.own_trainee t)")});
   for (const CarriedTable& table : carried_of_attempt()) {
     // They come with their attempt: nothing is added to one that is there.
     out.push_back({table.name, quoted_columns(table),
@@ -138,7 +142,9 @@ std::vector<Policy> policies() {
                  both(own,
                       "EXISTS (SELECT 1 FROM trocar.audit a WHERE a.station = head.station AND a.position ="
                       " head.position AND a.row_hash = head.row_hash)")});
-  out.push_back({"note_seen", "note_uuid, utc, station", own});
+  out.push_back({"note_seen", "note_uuid, utc, station",
+                 both(own, all + " OR EXISTS (SELECT 1 FROM trocar.note n JOIN trocar.own_person p ON p.uuid ="
+                                 " n.trainee_uuid WHERE n.uuid = note_uuid)")});
   out.push_back({"person_link", "one, other, linked, author, utc", all});
   out.push_back({"recording", "sha256, attempt_uuid, bytes, chunks, station",
                  both(own,
@@ -172,6 +178,10 @@ std::string may_bring(const std::string& table) {
       {"consent", kOfPerson},           {"note", kOfPerson},           {"certificate", kOfPerson},
       {"erasure", kOfPerson},           {"rating", kOfAttempt},        {"signature", kOfAttempt},
       {"verdict_override", kOfAttempt}, {"revocation", kOfCertificate}};
+  // Versions go on from what is there: one far beyond would leave no number to anybody's next one.
+  if (table == "curriculum")
+    return "version <= 1000 + coalesce((SELECT max(c.version) FROM trocar.curriculum c WHERE c.name ="
+           " curriculum.name), 0)";
   const auto about = kAbout.find(table);
   return about == kAbout.end() ? "true" : "(SELECT trocar.may_all()) OR " + about->second;
 }

@@ -75,7 +75,7 @@ class Replica {
              "SELECT t.uuid, p.code, coalesce(p.name, ''), coalesce(p.email, '') FROM trainee t LEFT JOIN person p"
              " ON p.trainee_uuid = t.uuid WHERE greatest(t.seq, p.seq) > $1::bigint ORDER BY t.uuid",
              {std::to_string(since_)})) {
-      const std::string uuid = *row[0], tail = uuid.substr(uuid.size() - 8);
+      const std::string uuid = *row[0], tail = uuid.substr(uuid.size() - std::min<std::size_t>(uuid.size(), 8));
       sql::Statement here(
           connection_,
           "SELECT t.id, EXISTS (SELECT 1 FROM erasure WHERE trainee_id = t.id), p.trainee_id IS NOT NULL"
