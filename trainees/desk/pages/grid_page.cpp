@@ -48,8 +48,9 @@ std::string grid_filters(const GridView& view) {
   std::vector<Choice> states = {{"", "any state"}};
   for (const StepState state : kStepStates) states.emplace_back(step_state_key(state), step_state_words(state));
   return "<form class=\"filters\" method=\"get\" action=\"/grid\">" +
-         select_field("f-programme", "programme", "Programme", names_with("", view.programmes), view.asked.programme) +
-         select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.asked.group) +
+         select_field("f-programme", "programme", "Programme", names_with("", view.programmes), view.asked.programme,
+                      true) +
+         select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.asked.group, true) +
          select_field("f-state", "state", "With a step that is", states, view.asked.state) +
          select_field("f-away", "deactivated", "Deactivated", {{"", "left out"}, {"yes", "shown too"}},
                       view.asked.deactivated ? "yes" : "") +
@@ -109,8 +110,8 @@ std::vector<const ProgrammeLine*> shown_lines(const GridView& view) {
 
 std::string grid_row(const GridView& view, const ProgrammeLine& line, const std::vector<Due>& usual) {
   std::string out = "<tr><th scope=\"row\">" +
-                    link_html("/trainee/" + url_part(line.code), line.name.empty() ? line.code : line.name) +
-                    (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") +
+                    verbatim_link("/trainee/" + url_part(line.code), line.name.empty() ? line.code : line.name) +
+                    (line.name.empty() ? "" : " <small class=\"dim\">" + verbatim(line.code) + "</small>") +
                     (line.active ? "" : " <span class=\"tag\">deactivated</span>") + "</th>";
   for (std::size_t at = 0; at < line.cells.size(); ++at)
     out += grid_cell(line, view.grid.programme.steps[at], line.cells[at], usual[at]);
@@ -200,7 +201,7 @@ std::string grid_page(const GridView& view, Frame frame) {
   const std::string files = query_html(asked_items(view.asked));
   return document(
       frame,
-      "<div class=\"title\"><h1>" + escape_html(view.asked.programme) +
+      "<div class=\"title\"><h1>" + verbatim(view.asked.programme) +
           "</h1><p class=\"dim\">people and steps</p><p class=\"files\">" + link_html("/grid.csv" + files, "CSV") +
           link_html("/programme" + query_html({{"name", view.asked.programme}}), "Steps") +
           link_html("/reminders" + query_html({{"programme", view.asked.programme}, {"group", view.asked.group}}),
@@ -215,10 +216,10 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
   for (std::size_t at = 0; at < shown; ++at) {
     const Reminder& one = view.lines[at];
     rows += std::string("<tr") + (one.state == StepState::kOverdue ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
-            link_html("/trainee/" + url_part(one.code), one.name.empty() ? one.code : one.name) +
-            (one.name.empty() ? "" : " <small class=\"dim\">" + escape_html(one.code) + "</small>") + "</th>" +
-            cell(joined_groups(one.groups)) + "<td>" +
-            link_html("/grid" + query_html({{"programme", one.programme}}), one.programme) + "</td>" +
+            verbatim_link("/trainee/" + url_part(one.code), one.name.empty() ? one.code : one.name) +
+            (one.name.empty() ? "" : " <small class=\"dim\">" + verbatim(one.code) + "</small>") + "</th>" +
+            verbatim_cell(joined_groups(one.groups)) + "<td>" +
+            verbatim_link("/grid" + query_html({{"programme", one.programme}}), one.programme) + "</td>" +
             cell(step_title(view.titles, one.step)) + "<td>" + day_html(one.due) + "</td>" +
             cell(days_words(one.days)) + "<td>" + state_badge(one.state) + "</td>" + cell(one.missing) + "</tr>";
   }
@@ -236,8 +237,8 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
               "reminders", "Who is late, and who soon would be",
               "<form class=\"filters\" method=\"get\" action=\"/reminders\">" +
                   select_field("f-programme", "programme", "Programme", names_with("all programmes", view.programmes),
-                               view.programme) +
-                  select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.group) +
+                               view.programme, true) +
+                  select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.group, true) +
                   text_field("f-days", "days", "Overdue, or due within days", days,
                              "type=\"number\" min=\"0\" max=\"3660\" required=\"required\"") +
                   "<p class=\"field\"><button>Show</button></p></form>" +
