@@ -12,12 +12,13 @@
 
 namespace trocar {
 
-/// The newest entry of a trail, as it can be kept elsewhere; key and signature are "" where the station has no key.
+/// An entry of a trail, as it can be kept elsewhere; key and signature are "" where the station has no key.
 struct SignedHead {
   std::int64_t position = 0;
   std::string row_hash = {}, utc = {}, key = {}, signature = {};
 };
-SignedHead newest_head(const Database& database);
+/// @param position of an entry that is there.
+SignedHead head_at(const Database& database, std::int64_t position);
 
 /// Whether the head is what its key signed; true where there is none.
 bool head_holds(const SignedHead& head);

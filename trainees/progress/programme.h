@@ -9,7 +9,8 @@
 //   days = 2           ... on so many different days, UTC (1..100, default 1)
 //   sign_off = true    and an instructor's certificate of exercise and level
 //   due_days = 30      deadline of its own, days after the programme was given (1..3660)
-//   input = "device"   attempts with this input alone count
+//   input = "device"   attempts with this input alone count; without it those of every input of a person
+//   (kPersonsInputs)
 //
 // Pure: no clock is read. Thread: any.
 #pragma once
@@ -34,6 +35,10 @@ struct ProgrammeStep {
 };
 
 inline constexpr std::size_t kMostSteps = 60;
+
+/// What people hold, and the invented ones of a demo; whatever else stands as an attempt's hand is a script, whose
+/// attempts are demonstrations and nobody's passes.
+inline constexpr const char* kPersonsInputs[] = {"mouse", "keyboard", "gamepad", "spacemouse", "device", "invented"};
 
 struct Programme {
   std::vector<ProgrammeStep> steps = {};

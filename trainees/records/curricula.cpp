@@ -67,6 +67,23 @@ void note_membership(sqlite3* connection, const char* action, const TraineeRow& 
   append_audit(connection, action, trainee.uuid, group, author.account_uuid.empty() ? "trocar" : author.account_uuid);
 }
 
+/// @param sql gives a row where something changed.
+void change_group(Database& database, const std::vector<std::string>& trainees, const std::string& group,
+                  const char* sql, const char* action, const Author& author) {
+  sqlite3* connection = database.connection();
+  AnchoredTransaction transaction(database);
+  bool changed = false;
+  for (const std::string& trainee : trainees) {
+    const TraineeRow row = trainee_row(connection, trainee);
+    sql::Statement change(connection, sql);
+    const bool done = change.bind(row.id).bind(group).step();
+    change.run();
+    if (done) note_membership(connection, action, row, group, author);
+    changed = changed || done;
+  }
+  if (changed) transaction.commit();
+}
+
 }  // namespace
 
 Curriculum CurriculumStore::add(const std::string& name, const std::string& toml, const Author& author) {
@@ -167,29 +184,15 @@ std::vector<Benchmark> CurriculumStore::benchmarks(const std::string& exercise_i
   return all;
 }
 
-void CurriculumStore::join(const std::string& trainee, const std::string& group, const Author& author) {
+void CurriculumStore::join(const std::vector<std::string>& trainees, const std::string& group, const Author& author) {
   check_printed("group", group, kLongestName);
-  sqlite3* connection = database_->connection();
-  AnchoredTransaction transaction(*database_);
-  const TraineeRow row = trainee_row(connection, trainee);
-  sql::Statement insert(connection, "INSERT OR IGNORE INTO membership VALUES (?, ?) RETURNING 1");
-  const bool joined = insert.bind(row.id).bind(group).step();
-  insert.run();
-  if (!joined) return;  // a member already
-  note_membership(connection, "group joined", row, group, author);
-  transaction.commit();
+  change_group(*database_, trainees, group, "INSERT OR IGNORE INTO membership VALUES (?, ?) RETURNING 1",
+               "group joined", author);
 }
 
-void CurriculumStore::leave(const std::string& trainee, const std::string& group, const Author& author) {
-  sqlite3* connection = database_->connection();
-  AnchoredTransaction transaction(*database_);
-  const TraineeRow row = trainee_row(connection, trainee);
-  sql::Statement gone(connection, "DELETE FROM membership WHERE trainee_id = ? AND group_name = ? RETURNING 1");
-  const bool left = gone.bind(row.id).bind(group).step();
-  gone.run();
-  if (!left) return;
-  note_membership(connection, "group left", row, group, author);
-  transaction.commit();
+void CurriculumStore::leave(const std::vector<std::string>& trainees, const std::string& group, const Author& author) {
+  change_group(*database_, trainees, group,
+               "DELETE FROM membership WHERE trainee_id = ? AND group_name = ? RETURNING 1", "group left", author);
 }
 
 std::vector<std::string> CurriculumStore::groups() const {

@@ -40,8 +40,16 @@ class CurriculumStore {
   std::vector<Benchmark> benchmarks(const std::string& exercise_id = "",
                                     const std::string& level = "") const;  ///< newest first
 
-  void join(const std::string& trainee, const std::string& group, const Author& author);
-  void leave(const std::string& trainee, const std::string& group, const Author& author);
+  /// All or none; who is a member already, or is none, is left. @throws InputError: nobody of one of the codes, a name
+  /// of a group that is not 1 to 64 bytes on one line.
+  void join(const std::vector<std::string>& trainees, const std::string& group, const Author& author);
+  void leave(const std::vector<std::string>& trainees, const std::string& group, const Author& author);
+  void join(const std::string& trainee, const std::string& group, const Author& author) {
+    join(std::vector{trainee}, group, author);
+  }
+  void leave(const std::string& trainee, const std::string& group, const Author& author) {
+    leave(std::vector{trainee}, group, author);
+  }
   std::vector<std::string> groups() const;
   std::vector<std::string> groups_of(const std::string& trainee) const;
   std::vector<std::string> members(const std::string& group) const;  ///< codes

@@ -2,19 +2,16 @@
 
 #include <iostream>
 #include <memory>
-#include <set>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
-#include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/people_import.h"
 #include "trainees/records/standings.h"
-#include "trainees/records/trainee_store.h"
 
 namespace trocar {
 namespace {
@@ -44,14 +41,10 @@ int trainee_import(const PeopleOptions& options, std::ostream& out, std::ostream
 int trainee_group(const PeopleOptions& options, std::ostream& out, std::ostream& err) {
   Database database = open_database(options.database, OpenMode::kExisting, err);
   CurriculumStore store(database);
-  for (const std::string& code : options.codes)
-    if (!TraineeStore(database).find(code)) throw InputError("trainee \"" + code + "\": there is none");
-  for (const std::string& code : options.codes) {
-    if (options.leave)
-      store.leave(code, options.group, author_said(options.author));
-    else
-      store.join(code, options.group, author_said(options.author));
-  }
+  if (options.leave)
+    store.leave(options.codes, options.group, author_said(options.author));
+  else
+    store.join(options.codes, options.group, author_said(options.author));
   for (const std::string& member : store.members(options.group)) out << member << '\n';
   return 0;
 }

@@ -12,11 +12,12 @@
 #include "haptics/input_error.h"
 #include "trainees/desk/queries/programme_query.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/standings.h"
 
 namespace trocar {
 namespace {
 
-using Align = TextTable::Align;
+using Side = TextTable::Align;
 
 /// "yes" or "no" as it counts; with who decided it where somebody did.
 std::string verdict_cell(const AttemptSummary& attempt) {
@@ -24,15 +25,15 @@ std::string verdict_cell(const AttemptSummary& attempt) {
 }
 
 void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {
-  TextTable table({{"no.", Align::kRight},
+  TextTable table({{"no.", Side::kRight},
                    {"started (UTC)"},
                    {"exercise"},
                    {"rubric"},
                    {"level"},
-                   {"board", Align::kRight},
+                   {"board", Side::kRight},
                    {"hand"},
                    {"status"},
-                   {"score", Align::kRight},
+                   {"score", Side::kRight},
                    {"grade"},
                    {"passed"},
                    {"organ"},
@@ -60,9 +61,9 @@ void print_judgements(const std::vector<CohortLine>& lines, std::ostream& out) {
                    {"hand"},
                    {"flag"},
                    {"evidence"},
-                   {"n", Align::kRight},
-                   {"decided", Align::kRight},
-                   {"reliability", Align::kRight},
+                   {"n", Side::kRight},
+                   {"decided", Side::kRight},
+                   {"reliability", Side::kRight},
                    {"rules"}});
   for (const CohortLine& line : lines)
     for (const Judgement& j : line.judgements)
@@ -111,11 +112,13 @@ int trainee_list(const TraineeOptions& options, std::ostream& out, std::ostream&
     out << trainees_json(trainees);
     return 0;
   }
+  const std::set<std::int64_t> away = deactivated(database.connection());
   TextTable table(
-      {{"trainee"}, {"attempts", Align::kRight}, {"passes", Align::kRight}, {"last (UTC)"}, {"since (UTC)"}});
+      {{"trainee"}, {"attempts", Side::kRight}, {"passes", Side::kRight}, {"last (UTC)"}, {"since (UTC)"}, {"state"}});
   for (const Trainee& trainee : trainees) {
     table.add({trainee.code, std::to_string(trainee.attempts), std::to_string(trainee.passes),
-               cell_time(trainee.last_utc), cell_time(trainee.created_utc)});
+               cell_time(trainee.last_utc), cell_time(trainee.created_utc),
+               away.contains(trainee.id) ? "deactivated" : ""});
   }
   table.print(out);
   return 0;

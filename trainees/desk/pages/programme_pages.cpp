@@ -132,13 +132,18 @@ std::string step_fields(const ProgrammeView& view, std::size_t at) {
          "</p></div></fieldset>";
 }
 
+/// Which programme, and the version that whoever changes it has seen.
+std::string named_version(const ProgrammeView& view) {
+  return "<input type=\"hidden\" name=\"name\" value=\"" + escape_html(view.name) +
+         "\"/><input type=\"hidden\" name=\"version\" value=\"" + std::to_string(view.seen) + "\"/>";
+}
+
 std::string steps_form(const ProgrammeView& view, const Frame& frame) {
   if (view.exercises.empty())
     return "<p>No exercise is known here: neither does this desk know those of the program, nor was one tried.</p>";
   // The first button is the one that Enter presses: saving, and not what stands at a step.
   const std::string save = "<button name=\"do\" value=\"save\">Save</button>";
-  std::string out = form_begin("/programme", frame) + "<input type=\"hidden\" name=\"name\" value=\"" +
-                    escape_html(view.name) + "\"/><p class=\"buttons\">" + save + "</p>";
+  std::string out = form_begin("/programme", frame) + named_version(view) + "<p class=\"buttons\">" + save + "</p>";
   for (std::size_t at = 0; at < view.steps.size(); ++at) out += step_fields(view, at);
   if (!view.problem.empty())
     out += "<p class=\"error\" role=\"alert\">" + shape("fail") + "Not done. " + escape_html(sentence(view.problem)) +
@@ -160,8 +165,7 @@ std::string text_form(const ProgrammeView& view, const Frame& frame) {
          (view.unreadable.empty()
               ? ""
               : "<p class=\"error\">" + shape("fail") + escape_html(sentence(view.unreadable)) + "</p>") +
-         form_begin("/programme", frame) + "<input type=\"hidden\" name=\"name\" value=\"" + escape_html(view.name) +
-         "\"/>" +
+         form_begin("/programme", frame) + named_version(view) +
          area_field("t-toml", "toml", "The same programme as text", kept(frame, form, "toml", view.text), 14,
                     "class=\"code\" spellcheck=\"false\"" + refused_field(frame, form)) +
          why_refused(frame, form) +

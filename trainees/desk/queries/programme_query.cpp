@@ -15,11 +15,13 @@ namespace {
 
 /// Of a step, in the order of the trainee's attempts; whether its score passed as the last column.
 std::string step_rows(bool of_one) {
+  std::string persons;
+  for (const char* input : kPersonsInputs) persons += (persons.empty() ? "'" : ", '") + std::string(input) + "'";
   return "SELECT a.trainee_id, a.id, a.status IN ('fault', 'void'), a.started_utc, " + std::string(sql::kBegun) + ", " +
          (of_one ? "(SELECT passed FROM score WHERE attempt_id = a.id AND revision = 0)" : "0") +
          " FROM attempt a INDEXED BY " + (of_one ? "attempt_by_trainee" : "attempt_by_curve") +
-         " WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.status <> 'running' AND (?3 = '' OR a.hand = ?3)" +
-         (of_one ? " AND a.trainee_id = ?4 ORDER BY a.id" : "");
+         " WHERE a.exercise_id = ?1 AND a.level = ?2 AND a.status <> 'running' AND CASE ?3 WHEN '' THEN a.hand IN (" +
+         persons + ") ELSE a.hand = ?3 END" + (of_one ? " AND a.trainee_id = ?4 ORDER BY a.id" : "");
 }
 
 /// Attempts that pass as they count: by the score, and by people where they decided.

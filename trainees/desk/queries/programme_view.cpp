@@ -90,7 +90,7 @@ ProgrammeView programme_view(Desk& desk, const std::string& name) {
   const auto kept = CurriculumStore(desk.database).newest(name);
   if (kept && !is_programme(kept->toml)) throw InputError("\"" + name + "\": is the name of rules of progress");
   if (!kept) return view;
-  view.version = kept->version;
+  view.version = view.seen = kept->version;
   view.text = kept->toml;
   try {
     for (const ProgrammeStep& step : read_programme(kept->toml, name).steps) view.steps.push_back(draft_of(step));
@@ -104,6 +104,7 @@ ProgrammeView programme_view(Desk& desk, const std::string& name) {
 ProgrammeView drafted(Desk& desk, const std::map<std::string, std::string>& form) {
   ProgrammeView view = programme_view(desk, argument(form, "name"));
   view.steps.clear();
+  view.seen = whole_number(argument(form, "version"), 0);
   for (std::size_t i = 1; i <= kMostSteps; ++i) {
     const std::string at = "s" + std::to_string(i) + ".";
     if (!form.contains(at + "step")) break;

@@ -33,6 +33,7 @@ struct StepDraft {
 struct ProgrammeView {
   std::string name = {};
   int version = 0;  ///< 0: not saved yet
+  int seen = 0;     ///< version that the form was made from
   std::vector<StepDraft> steps = {};
   std::string text = {};               ///< as TOML
   std::string problem = {};            ///< of the form

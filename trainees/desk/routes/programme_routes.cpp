@@ -60,9 +60,13 @@ Response programme(const Request& request, Desk& desk) {
   return programme_answer(programme_page(view, frame_of(request, desk)));
 }
 
-Response save(Desk& desk, const Request& request, const std::string& name, const std::string& toml) {
-  ProgrammeStore(desk.database).save(name, toml, author_of(request));
-  return see("/programme?name=" + url_part(name) + "#steps");
+/// @throws InputError: as ProgrammeStore::save(); somebody has saved another version since the form was made.
+Response save(Desk& desk, const Request& request, const ProgrammeView& view, const std::string& toml) {
+  if (view.seen != view.version)
+    throw InputError("programme \"" + view.name + "\": version " + std::to_string(view.version) +
+                     " was saved meanwhile; open it again, and repeat what you changed");
+  ProgrammeStore(desk.database).save(view.name, toml, author_of(request));
+  return see("/programme?name=" + url_part(view.name) + "#steps");
 }
 
 /// "up.2": what is to be done with which step. What cannot be done is left.
@@ -84,11 +88,13 @@ Response change_programme(const Request& request, Desk& desk) {
   ProgrammeView view = drafted(desk, request.form);
   if (act == "text") {
     try {
-      return save(desk, request, view.name, argument(request.form, "toml"));
+      return save(desk, request, view, argument(request.form, "toml"));
     } catch (const InputError& error) {
       Frame frame = frame_of(request, desk);
       frame.refused = {"text", error.what(), request.form};
-      return programme_answer(programme_page(programme_view(desk, view.name), frame), 400);
+      ProgrammeView kept = programme_view(desk, view.name);
+      kept.seen = view.seen;
+      return programme_answer(programme_page(kept, frame), 400);
     }
   }
   if (act != "save") {
@@ -96,7 +102,7 @@ Response change_programme(const Request& request, Desk& desk) {
     return programme_answer(programme_page(view, frame_of(request, desk)));
   }
   try {
-    return save(desk, request, view.name, programme_toml(programme_of(view.steps)));
+    return save(desk, request, view, programme_toml(programme_of(view.steps)));
   } catch (const InputError& error) {
     view.problem = error.what();
     return programme_answer(programme_page(view, frame_of(request, desk)), 400);

@@ -64,12 +64,10 @@ void change_groups(const Request& request, Desk& desk, const std::vector<std::st
   CurriculumStore store(desk.database);
   const std::string group = argument(request.form, "group");
   if (group.empty()) throw InputError("group: say which");
-  for (const std::string& code : codes) {
-    if (join)
-      store.join(code, group, author_of(request));
-    else
-      store.leave(code, group, author_of(request));
-  }
+  if (join)
+    store.join(codes, group, author_of(request));
+  else
+    store.leave(codes, group, author_of(request));
 }
 
 Response selected(const Request& request, Desk& desk) {

@@ -39,7 +39,8 @@ constexpr Function kFunctions[] = {
      "SELECT is_owner() OR EXISTS (SELECT 1 FROM login WHERE name = session_user AND kind = 'desk')"},
     {"require_own(wanted text) RETURNS void LANGUAGE plpgsql",
      "BEGIN IF NOT is_owner() AND NOT EXISTS (SELECT 1 FROM station WHERE uuid = wanted AND login = session_user) THEN"
-     " RAISE EXCEPTION 'station % does not belong to the login %', wanted, session_user USING ERRCODE = '42501';"
+     " RAISE EXCEPTION 'station % does not belong to the login % (the owner gives it: trocar sync admit --station)', "
+     "wanted, session_user USING ERRCODE = '42501';"
      " END IF; END"},
     {"announce(wanted text, called text) RETURNS bigint LANGUAGE plpgsql",
      "BEGIN INSERT INTO station (uuid, name, login) VALUES (wanted, called, session_user) ON CONFLICT DO NOTHING;"
@@ -71,6 +72,14 @@ constexpr Function kFunctions[] = {
      " UPDATE recording SET complete = true, seq = nextval('arrival') WHERE sha256 = wanted AND NOT complete;"
      " RETURN FOUND; END IF;"
      " DELETE FROM recording WHERE sha256 = wanted AND NOT complete; RETURN false; END"},
+    // What a station adds to its trail goes on from what is there, so that the newest entry holds all before it.
+    {"chained() RETURNS trigger LANGUAGE plpgsql",
+     "BEGIN IF EXISTS (SELECT 1 FROM fresh f WHERE f.row_hash <> encode(sha256(convert_to(concat_ws(E'\\n',"
+     " 'trocar-audit-1', f.prev_hash, f.position, f.utc, f.actor, f.action, f.subject, f.detail), 'UTF8')), 'hex')"
+     " OR NOT (f.position = 1 AND f.prev_hash = '' OR EXISTS (SELECT 1 FROM audit a WHERE a.station = f.station AND"
+     " a.position = f.position - 1 AND a.row_hash = f.prev_hash))) THEN"
+     " RAISE EXCEPTION 'the entries do not go on from the audit trail that is there' USING ERRCODE = '23514'; END IF;"
+     " RETURN NULL; END"},
 };
 
 std::string erase_body() {
@@ -125,7 +134,10 @@ std::vector<Policy> policies() {
   out.push_back({"person", "", "false", all + " OR " + own});
   out.push_back({"audit", "station, position, utc, actor, action, subject, detail, prev_hash, row_hash", own});
   out.push_back({"conflict", "station, kind, uuid, hash, kept", own});
-  out.push_back({"head", "station, position, row_hash, utc, key, signature", own});
+  out.push_back({"head", "station, position, row_hash, utc, key, signature",
+                 both(own,
+                      "EXISTS (SELECT 1 FROM trocar.audit a WHERE a.station = head.station AND a.position ="
+                      " head.position AND a.row_hash = head.row_hash)")});
   out.push_back({"note_seen", "note_uuid, utc, station", own});
   out.push_back({"person_link", "one, other, linked, author, utc", all});
   out.push_back({"recording", "sha256, attempt_uuid, bytes, chunks, station",
@@ -177,6 +189,9 @@ std::vector<std::string> rights_statements() {
   }
   for (const Function& function : kFunctions) out.push_back(function_statement(function.head, function.body));
   out.push_back(function_statement("erase() RETURNS void LANGUAGE plpgsql", erase_body()));
+  out.emplace_back(
+      "CREATE TRIGGER chained AFTER INSERT ON audit REFERENCING NEW TABLE AS fresh FOR EACH STATEMENT EXECUTE FUNCTION"
+      " chained()");
   out.emplace_back("REVOKE EXECUTE ON ALL FUNCTIONS IN SCHEMA trocar FROM PUBLIC");
   for (const Policy& policy : policies()) {
     out.push_back("ALTER TABLE " + policy.table + " ENABLE ROW LEVEL SECURITY");

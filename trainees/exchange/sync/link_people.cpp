@@ -49,6 +49,8 @@ LinkedPeople link_people(const CentralAddress& central, const std::string& one, 
   check_printed("author", author);
   CentralLink link(central);
   link.begin();
+  if (link.run("SELECT may_all()").front().front() != "t")
+    throw InputError("who is the same person as whom only a desk's login or the owner of the central database says");
   LinkedPeople people{trainee_named(link, one), trainee_named(link, other)};
   if (people.one == people.other) throw InputError("\"" + one + "\" and \"" + other + "\" are one trainee already");
   require_not_erased(link, people.one, one);

@@ -118,11 +118,12 @@ class Push {
     });
   }
 
-  /// A login that comes as another station than before: a record that was put in the place of another does so.
+  /// A station's login that comes as another than before: a record that was put in the place of another does so.
   void tell_others() {
-    if (link_->is_owner() || !link_->run("SELECT 1 FROM station WHERE uuid = $1", {station_.uuid}).empty()) return;
+    if (!link_->run("SELECT 1 FROM station WHERE uuid = $1", {station_.uuid}).empty()) return;
     for (const Values& row :
-         link_->run("SELECT name, uuid, last_position::text FROM station WHERE login = session_user ORDER BY uuid")) {
+         link_->run("SELECT s.name, s.uuid, s.last_position::text FROM station s JOIN login l ON l.name = s.login AND"
+                    " l.kind = 'station' WHERE s.login = session_user ORDER BY s.uuid")) {
       report_->told.push_back("this login pushed as station " + *row[0] + " (" + *row[1] + ") up to entry " + *row[2] +
                               " and comes as another station now: another record, or one under a new UUID");
     }
@@ -135,7 +136,8 @@ class Push {
   }
 
   void require_same_trail(sqlite3* connection, std::int64_t position, const std::string& hash) const {
-    if (audit_hash(connection, position) == hash) return;
+    const std::string here = audit_hash(connection, position);
+    if (!here.empty() && here == hash) return;
     throw InputError("the audit trail of station " + station_.name + " (" + station_.uuid +
                      ") is not the one that was pushed, at position " + std::to_string(position) +
                      ": an older copy of the database was put back, or two machines use copies of one. Nothing"
@@ -283,7 +285,7 @@ PushReport push_over(CentralLink& link, Database& database, const PushOptions& o
   }
   report.from = report.to = std::min(known, there);  // either side may have been put back
   send_batches(push, database, link.uuid(), options, report);
-  push.send_head(newest_head(database));
+  if (report.to > 0) push.send_head(head_at(database, report.to));  // what came since goes the next time
   const std::string seen = "seen at " + link.uuid();
   const std::int64_t mark = seen_mark(database.connection());
   if (mark != 0 && (mark != cursor_of(database, seen) || there < known)) {

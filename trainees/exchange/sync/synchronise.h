@@ -78,7 +78,8 @@ inline PullReport replicate_central(Database& database, const CentralAddress& ce
 }
 
 /// Where the trail is not the one that heads at the centre were taken of, a line each: heads of whatever station this
-/// record says that it was, and of those that this login pushed as. No head there is a problem too.
+/// record says that it was, and of those that this login pushed as, where it is a station's. No head there is a problem
+/// too.
 /// @throws as push_to_central.
 std::vector<std::string> check_central_witness(const Database& database, const CentralAddress& central);
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+
+#include "trainees/progress/programme.h"
 
 namespace trocar::level_progress_test {
 namespace {
@@ -151,6 +154,9 @@ TEST(ScriptedHands, AreTheOnesThatNoInputIs) {
   for (const char* hand : {"mouse", "keyboard", "gamepad", "spacemouse", "device", ""}) {
     one.hand = hand;
     EXPECT_FALSE(by_scripted_hand(one)) << hand;
+    if (one.hand.empty()) continue;
+    EXPECT_TRUE(std::count(std::begin(kPersonsInputs), std::end(kPersonsInputs), one.hand))
+        << hand << ": in programmes";
   }
   for (const char* hand : {"expert", "novice", "my/script.toml"}) {
     one.hand = hand;

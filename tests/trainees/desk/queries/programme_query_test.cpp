@@ -93,6 +93,15 @@ TEST_F(ProgrammeQuery, StatesFollowAttemptsDecisionsAndCertificates) {
   EXPECT_EQ(due_day(*cell.due_s), "2029-12-31");
 }
 
+TEST_F(ProgrammeQuery, WhatAScriptedHandDidIsNobodysPass) {
+  store_.assign("Basics", "T-1", "", "", kAuthor);
+  for (const char* day : {"2026-03-01", "2026-03-02"}) attempt("T-1", "L1", 100, day, "expert");
+  EXPECT_EQ(said(), "T-1 not-started not-started");
+  EXPECT_EQ(said({"", "T-1"}), "T-1 not-started not-started");
+  for (const char* day : {"2026-03-03", "2026-03-04"}) attempt("T-1", "L1", 100, day, "device");
+  EXPECT_EQ(said(), "T-1 passed not-started");
+}
+
 TEST_F(ProgrammeQuery, OneAlikeByEitherWay) {
   test::CohortPlan plan;
   plan.trainees = 6;

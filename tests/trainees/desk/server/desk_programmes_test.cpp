@@ -83,14 +83,25 @@ TEST_F(DeskProgrammes, WhatMeansNothingComesBackWithWhy) {
   EXPECT_TRUE(ProgrammeStore(database_).list().empty());
 }
 
+TEST_F(DeskProgrammes, WhatSomebodySavedMeanwhileIsNotOverwritten) {
+  save_basics();
+  const std::string form = "name=Basics&version=1&do=save" + step(1, "pegs|L1");
+  EXPECT_EQ(post("/programme", form).response.status, 303);
+  const std::string late = sound("late", post("/programme", form), 400);
+  EXPECT_TRUE(has(late, "version 2 was saved meanwhile")) << late;
+  EXPECT_TRUE(has(late, "name=\"version\" value=\"1\"")) << "saying it twice does not help";
+  EXPECT_EQ(ProgrammeStore(database_).list().at(0).text.version, 2);
+  EXPECT_EQ(post("/programme", "name=Basics&version=1&do=text&toml=x").response.status, 400);
+}
+
 TEST_F(DeskProgrammes, TheTextIsTheSameProgramme) {
   save_basics();
   const std::string toml = "# mine\n[[step]]\nexercise = \"pegs\"\nlevel = \"L1\"\n";
-  EXPECT_EQ(post("/programme", "name=Basics&do=text&toml=" + percent_encoded(toml)).response.status, 303);
+  EXPECT_EQ(post("/programme", "name=Basics&version=1&do=text&toml=" + percent_encoded(toml)).response.status, 303);
   EXPECT_EQ(ProgrammeStore(database_).find("Basics").steps.size(), 1U);
   EXPECT_TRUE(has(page("/programme?name=Basics"), "# mine"));
   const std::string bad =
-      sound("bad", post("/programme", "name=Basics&do=text&toml=" + percent_encoded(toml + "x = 1\n")), 400);
+      sound("bad", post("/programme", "name=Basics&version=2&do=text&toml=" + percent_encoded(toml + "x = 1\n")), 400);
   EXPECT_TRUE(has(bad, "Basics:5:1: unknown key") && has(bad, "x = 1")) << bad;
 }
 

@@ -70,6 +70,16 @@ class CentralAttack : public Stations {
     }
     return text;
   }
+  /// SQL that adds an entry to the south's trail which goes on from what is there.
+  std::string one_more_entry(const std::string& action, const std::string& subject, const std::string& detail) const {
+    const std::string words = "'', '', '" + action + "', '" + subject + "', '" + detail + "'";
+    return "INSERT INTO audit (station, position, utc, actor, action, subject, detail, prev_hash, row_hash) SELECT"
+           " station, position + 1, " +
+           words +
+           ", row_hash, encode(sha256(convert_to(concat_ws(E'\\n',"
+           " 'trocar-audit-1', row_hash, position + 1, " +
+           words + "), 'UTF8')), 'hex') FROM audit WHERE station = '" + own_ + "' ORDER BY position DESC LIMIT 1";
+  }
   std::vector<std::string> all() const {
     std::vector<std::string> lines = everything();
     for (const char* table : {"head", "login"})
@@ -169,10 +179,7 @@ TEST_F(CentralAttack, AnErasureOfOnesOwnTakesNobodyElsesWords) {
   erase_trainee(south, "T-south", ErasureKind::kIdentity, "request", {});
   come(south, south_);
   const std::string erasure = one("SELECT uuid FROM erasure");
-  EXPECT_EQ(attack("INSERT INTO audit (station, position, utc, actor, action, subject, detail, prev_hash, row_hash)"
-                   " VALUES ('" +
-                   own_ + "', 9999, '', '', 'signature erased', '" + signature + "', '" + erasure + "', '', '')"),
-            "");
+  EXPECT_EQ(attack(one_more_entry("signature erased", signature, erasure)), "");
   EXPECT_EQ(attack("SELECT erase()"), "");
   EXPECT_EQ(one("SELECT count(*) FROM signature WHERE uuid = '" + signature + "'"), "1");
 }
@@ -235,15 +242,39 @@ TEST_F(CentralAttack, ARecordThatWasRewrittenOrPutBackIsFoundByItsWitness) {
   EXPECT_NE(report.told[0].find("this login pushed as station south"), std::string::npos) << report.told[0];
 }
 
+TEST_F(CentralAttack, WhatIsAddedToItsOwnTrailShowsAtItsNextPush) {
+  for (const char* entry : {"1000, '', ''", "1000, '', repeat('0', 64)", "1, '', ''"})
+    EXPECT_NE(attack(filled("INSERT INTO audit (station, utc, actor, action, subject, detail, position, prev_hash,"
+                            " row_hash) VALUES ('OWN', '', '', '', '', '', " +
+                            std::string(entry) + ")")),
+              "")
+        << entry;
+  const std::string head = one("SELECT max(position) + 1 FROM audit WHERE station = '" + own_ + "'");
+  EXPECT_EQ(attack(one_more_entry("note added", "", "")), "");
+  Database south = station("south");
+  const std::string told = message_of<InputError>([&] { come(south, south_); });
+  EXPECT_NE(told.find("is not the one that was pushed, at position " + head), std::string::npos) << told;
+}
+
+TEST_F(CentralAttack, OnlyADeskSaysWhoIsTheSamePerson) {
+  const auto link = [&](const CentralAddress& as) { link_people(as, "T-north@north", "T-south@south", true, "me"); };
+  EXPECT_NE(message_of<InputError>([&] { link(south_); }).find("only a desk's login"), std::string::npos);
+  link(admitted(central_, "desk_" + database_name(), "desk"));
+  EXPECT_EQ(one("SELECT count(*) FROM holding_link"), "1");
+}
+
 TEST_F(CentralAttack, AFalseHeadIsKnownByItsSignature) {
   Database south = station("south");
-  EXPECT_EQ(attack("INSERT INTO head (station, position, row_hash, utc, key, signature) SELECT station, 9999, row_hash,"
-                   " utc, key, repeat('0', 128) FROM head WHERE station = '" +
+  const std::string insert = "INSERT INTO head (station, position, row_hash, utc, key, signature) SELECT station, ";
+  EXPECT_NE(attack(insert + "9999, '', '', '', '' FROM head WHERE station = '" + own_ + "'"), "");
+  EXPECT_EQ(attack(insert +
+                   "2, (SELECT row_hash FROM audit a WHERE a.station = h.station AND a.position = 2), utc, key,"
+                   " repeat('0', 128) FROM head h WHERE station = '" +
                    own_ + "'"),
             "");
   const Lines told = check_central_witness(south, south_);
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_NE(told[0].find("entry 9999 bears no signature of its key"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("entry 2 bears no signature of its key"), std::string::npos) << told[0];
 }
 
 TEST_F(CentralAttack, ARecordThatWasNeverPushedHasNoWitness) {
