@@ -6,7 +6,7 @@
 // that has a translation itself; {t} any text, which stays as it is (a name, a code). The translation has the same ones;
 // where their order differs, {p2} is the second {p} of the key. What no entry fits stays English.
 //
-// Looked up are texts between tags and the attributes alt, aria-label, placeholder and title, each as a whole; then
+// Looked up are texts between tags and the attributes alt, aria-label, data-words (what the script says), placeholder and title, each as a whole; then
 // without punctuation round it, with a small first letter, and sentence by sentence. Elements with translate="no", code,
 // classes "mono", "said" and "written", style and script are left alone: what people wrote stands there.
 // docs/decisions/0031-desk-languages.md says why it is done this way. Plain values, any thread.

@@ -7,7 +7,7 @@
 namespace trocar::review {
 namespace {
 
-constexpr std::array<std::string_view, 4> kReadAttributes = {"alt", "aria-label", "placeholder", "title"};
+constexpr std::array<std::string_view, 5> kReadAttributes = {"alt", "aria-label", "data-words", "placeholder", "title"};
 constexpr std::array<std::string_view, 4> kForeignElements = {"code", "script", "style", "textarea"};
 constexpr std::array<std::string_view, 3> kForeignClasses = {"mono", "said", "written"};
 constexpr std::array<std::string_view, 6> kVoidElements = {"br", "hr", "img", "input", "link", "meta"};
