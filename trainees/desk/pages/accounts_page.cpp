@@ -34,8 +34,8 @@ std::string switch_form(const Account& account, const Frame& frame) {
 std::string row(const Account& account, const AccountsView& view, const Frame& frame) {
   const bool disabled = !account.disabled_utc.empty();
   return "<tr><th scope=\"row\">" + verbatim(account.login) +
-         (account.login == view.own_login ? " <span class=\"tag\">you</span>" : "") + "</th>" + verbatim_cell(account.name) +
-         cell(role_name(account.role)) + "<td>" +
+         (account.login == view.own_login ? " <span class=\"tag\">you</span>" : "") + "</th>" +
+         verbatim_cell(account.name) + cell(role_name(account.role)) + "<td>" +
          (account.trainee_code.empty()
               ? ""
               : verbatim_link("/trainee/" + url_part(account.trainee_code), account.trainee_code)) +
@@ -62,8 +62,9 @@ std::string new_account(const AccountsView& view, const Frame& frame) {
          text_field("a-name", "name", "Name, as it is printed", kept(frame, form, "name"),
                     "maxlength=\"100\" autocomplete=\"off\"") +
          select_field("a-role", "role", "Role", roles, kept(frame, form, "role")) +
-         (view.first ? std::string()
-                     : select_field("a-trainee", "trainee", "Of the trainee", codes, kept(frame, form, "trainee"), true)) +
+         (view.first
+              ? std::string()
+              : select_field("a-trainee", "trainee", "Of the trainee", codes, kept(frame, form, "trainee"), true)) +
          text_field("a-password", "password", "Password (of a trainee: or a PIN of 6 digits)", "", kPasswordField) +
          text_field("a-again", "again", "Password again", "", kPasswordField) + "</div>" + why_refused(frame, form) +
          "<p><button>Add the account</button></p></form>";

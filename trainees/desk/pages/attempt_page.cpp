@@ -22,8 +22,8 @@ std::string signatures(const AttemptView& view, bool demo) {
   std::string rows;
   for (const Signature& s : view.signatures)
     rows += "<tr><th scope=\"row\">" + author_html(s.signer, s.account_uuid, demo) + "</th>" +
-            cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\" translate=\"no\">" + escape_html(s.note) +
-            "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
+            cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\" translate=\"no\">" +
+            escape_html(s.note) + "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
             (s.row_hash == view.row_hash ? "" : " <span class=\"tag\">other bytes</span>") + "</td></tr>";
   return table("Signatures", head_cells({"Signed by", "Meaning", "When", "Note", "Bound to"}), rows);
 }
@@ -80,8 +80,8 @@ std::string certificate_list(const AttemptView& view, bool demo) {
     const Certificate& c = one.certificate;
     const bool held = c.revoked_utc.empty();
     out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(c.exercise_id) + " " +
-           escape_html(c.level) + ", " + day_html(c.utc) + ", " + author_html(c.printed, c.author, demo) +
-           ", rules " + escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
+           escape_html(c.level) + ", " + day_html(c.utc) + ", " + author_html(c.printed, c.author, demo) + ", rules " +
+           escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
            (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + verbatim(c.revoked_reason)) + " " +
            link_html("/trainee/" + url_part(view.result.trainee) + "#certificates", "evidence");
     if (held && !one.in_question.empty())
@@ -108,8 +108,8 @@ std::string certificate_form(const AttemptView& view, const Frame& frame) {
   if (!view.verdict().passed)
     return why + "<p class=\"dim\">This attempt is not passed, so no certificate can cite it. Open one that is.</p>";
   return why + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) +
-         password_field("certify-password", frame) + "<p><button>Certify " + verbatim(view.result.trainee) +
-         " for " + escape_html(view.exercise) + " " + escape_html(view.result.level) + "</button></p></form>";
+         password_field("certify-password", frame) + "<p><button>Certify " + verbatim(view.result.trainee) + " for " +
+         escape_html(view.exercise) + " " + escape_html(view.result.level) + "</button></p></form>";
 }
 
 std::string compare_section(const AttemptView& view, const Frame& frame) {
@@ -154,8 +154,8 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
     out += "<ul>";
     for (const VerdictOverride& o : view.overrides)
       out += "<li>" + std::string(o.passed ? "Passed" : "Not passed") + ", " +
-             author_html(o.printed, o.author, frame.demo) + ", " + date_html(o.utc) + ": " +
-             verbatim(o.reason) + "</li>";
+             author_html(o.printed, o.author, frame.demo) + ", " + date_html(o.utc) + ": " + verbatim(o.reason) +
+             "</li>";
     out += "</ul>" + decision_clock_notice(view.overrides);
   }
   if (!frame.may_write) return section("sign", "Sign-off", out + certificate_list(view, frame.demo));

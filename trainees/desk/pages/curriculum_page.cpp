@@ -56,7 +56,8 @@ std::string versions(const CurriculumView& view) {
         link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
                   c.name + (own_version(view, c).empty() ? "" : ", version " + own_version(view, c))) +
         "</th>" + number_cell(std::to_string(c.version)) + "<td>" + date_html(c.utc) + "</td>" +
-        verbatim_cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
+        verbatim_cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) +
+        "</td></tr>";
   if (rows.empty())
     return section("versions", "Versions", "<p>None yet: the rules that came with the program hold.</p>");
   return section("versions", "Versions",
@@ -141,8 +142,8 @@ std::string benchmarks(const CurriculumView& view, const Frame& frame) {
   for (const Benchmark& b : view.benchmarks)
     rows += "<tr><th scope=\"row\">" + escape_html(b.exercise_id) + " " + escape_html(b.level) + "</th>" +
             cell(words_of(b.metric)) + number_cell(number_text(b.full_at)) + number_cell(number_text(b.zero_at)) +
-            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) + verbatim_cell(author_name(view, b.author)) +
-            "<td>" + day_html(b.utc) + "</td></tr>";
+            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) +
+            verbatim_cell(author_name(view, b.author)) + "<td>" + day_html(b.utc) + "</td></tr>";
   const std::string listed =
       rows.empty()
           ? "<p>None yet.</p>"
@@ -183,8 +184,8 @@ std::string groups(const CurriculumView& view, const Frame& frame) {
         out += form_begin("/curriculum/group", frame) +
                "<input type=\"hidden\" name=\"do\" value=\"leave\"/><input type=\"hidden\" name=\"group\" value=\"" +
                escape_html(group.name) + "\"/><input type=\"hidden\" name=\"trainee\" value=\"" + escape_html(code) +
-               "\"/><button class=\"small\" id=\"leave-" + std::to_string(++n) + "\">Remove<span class=\"unseen\" translate=\"no\"> " +
-               escape_html(code) + "</span></button></form>";
+               "\"/><button class=\"small\" id=\"leave-" + std::to_string(++n) +
+               "\">Remove<span class=\"unseen\" translate=\"no\"> " + escape_html(code) + "</span></button></form>";
       out += "</li>";
     }
     out += "</ul>";

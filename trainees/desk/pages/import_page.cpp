@@ -23,8 +23,8 @@ std::string import_row(const ImportRow& row) {
   return std::string("<tr") + (row.fate == RowFate::kRefused ? " class=\"grave\"" : "") + ">" +
          number_cell(std::to_string(row.line)) + "<td>" + shape(fate_shape(row.fate)) + fate_words(row.fate) +
          "</td><th scope=\"row\" translate=\"no\">" + escape_html(row.code) + "</th>" + verbatim_cell(row.name) +
-         verbatim_cell(row.email) +
-         verbatim_cell(row.group) + "<td class=\"long\">" + escape_html(sentence(row.reason)) + "</td></tr>";
+         verbatim_cell(row.email) + verbatim_cell(row.group) + "<td class=\"long\">" +
+         escape_html(sentence(row.reason)) + "</td></tr>";
 }
 
 std::string import_table(const ImportPreview& preview, bool done) {

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "trainees/desk/server/path_redaction.h"
+#include "trainees/desk/words/page_language.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
-#include "trainees/desk/words/page_language.h"
 
 namespace trocar::review {
 namespace {
@@ -58,8 +58,8 @@ std::string top(const Frame& frame) {
   std::string out = "<header class=\"top\"><span class=\"brand\">Trocar desk</span>" + (frame.ended ? "" : nav(frame));
   if (!frame.who.empty() && frame.signed_in)
     out += "<form class=\"who\" method=\"post\" action=\"/sign-out\"><input type=\"hidden\" name=\"token\" value=\"" +
-           escape_html(frame.token) + "\"/>" + verbatim(frame.who) +
-           link_html("/password", "Password") + "<button>Sign out</button></form>";
+           escape_html(frame.token) + "\"/>" + verbatim(frame.who) + link_html("/password", "Password") +
+           "<button>Sign out</button></form>";
   else if (!frame.who.empty())
     out += "<p class=\"who\">" + verbatim(frame.who) + "</p>";
   out += "</header>";
@@ -73,7 +73,8 @@ std::string top(const Frame& frame) {
 
 /// What only paper shows: whose page it is and when it was made.
 std::string paper_line(const Frame& frame) {
-  return "<p class=\"paper\">Trocar desk: " + (frame.title_verbatim ? verbatim(frame.title) : escape_html(frame.title)) +
+  return "<p class=\"paper\">Trocar desk: " +
+         (frame.title_verbatim ? verbatim(frame.title) : escape_html(frame.title)) +
          (frame.now_utc.empty() ? "" : ". Printed from the page of " + date_html(frame.now_utc) + " UTC") +
          (frame.who.empty() ? "" : ", " + verbatim(frame.who)) + "</p>";
 }
@@ -342,8 +343,7 @@ std::string select_field(const std::string& id, const std::string& name, const s
   std::string out = "<p class=\"field\">" + label_for(id, label) + "<select id=\"" + id + "\" name=\"" + name + "\">";
   for (const auto& [value, words] : choices)
     out += "<option value=\"" + escape_html(value) + "\"" + (value == chosen ? " selected=\"selected\"" : "") +
-           (choices_verbatim && !value.empty() ? " translate=\"no\">" : ">") +
-           escape_html(words) + "</option>";
+           (choices_verbatim && !value.empty() ? " translate=\"no\">" : ">") + escape_html(words) + "</option>";
   return out + "</select></p>";
 }
 

@@ -25,10 +25,10 @@ struct RefusedForm {
 struct Frame {
   std::string title = {};
   bool title_verbatim = false;  ///< it is a name or has one in it
-  std::string who = {};       ///< name of who looks; "" on pages before signing in
-  bool signed_in = true;      ///< by an account, so that signing out means something
-  std::string own_code = {};  ///< of a trainee: sees own pages only
-  std::string token = {};     ///< goes into every form
+  std::string who = {};         ///< name of who looks; "" on pages before signing in
+  bool signed_in = true;        ///< by an account, so that signing out means something
+  std::string own_code = {};    ///< of a trainee: sees own pages only
+  std::string token = {};       ///< goes into every form
   std::string now_utc = {};
   bool demo = false;
   bool may_write = true;  ///< instructors and administrators

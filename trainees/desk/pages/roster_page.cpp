@@ -17,8 +17,7 @@ std::vector<Choice> group_choices(const std::string& all, const std::vector<std:
 
 std::string roster_filters(const RosterView& view) {
   return "<form class=\"filters\" method=\"get\" action=\"/roster\">" +
-         select_field("f-group", "group", "Group", group_choices("all groups", view.groups), view.group,
-                      true) +
+         select_field("f-group", "group", "Group", group_choices("all groups", view.groups), view.group, true) +
          select_field("f-who", "who", "Who", {{"active", "active"}, {"deactivated", "deactivated"}, {"all", "both"}},
                       view.who) +
          "<p class=\"field\"><button>Show</button></p></form>";
@@ -30,10 +29,10 @@ std::string roster_row(const RosterEntry& one, int number) {
   for (const std::string& group : one.groups)
     groups += (groups.empty() ? "" : ", ") + verbatim_link("/roster" + query_html({{"group", group}}), group);
   return "<tr><td class=\"tick\"><input type=\"checkbox\" id=\"" + id + "\" name=\"p:" + code +
-         "\" value=\"yes\"/><label class=\"unseen\" translate=\"no\" for=\"" + id + "\">" + code + "</label></td><th scope=\"row\">" +
-         verbatim_link("/trainee/" + url_part(one.code), shown_person(one)) +
-         (one.name.empty() ? "" : " <small class=\"dim\" translate=\"no\">" + code + "</small>") + "</th><td>" + groups + "</td>" +
-         number_cell(std::to_string(one.attempts)) + "<td>" +
+         "\" value=\"yes\"/><label class=\"unseen\" translate=\"no\" for=\"" + id + "\">" + code +
+         "</label></td><th scope=\"row\">" + verbatim_link("/trainee/" + url_part(one.code), shown_person(one)) +
+         (one.name.empty() ? "" : " <small class=\"dim\" translate=\"no\">" + code + "</small>") + "</th><td>" +
+         groups + "</td>" + number_cell(std::to_string(one.attempts)) + "<td>" +
          (one.last_utc.empty() ? "<span class=\"dim\">never</span>" : day_html(one.last_utc)) + "</td><td>" +
          (one.login.empty() ? "<span class=\"dim\">none</span>" : verbatim(one.login)) + "</td><td>" +
          shape(one.active ? "pass" : "void") + (one.active ? "active" : "deactivated") + "</td><td>" +

@@ -193,8 +193,8 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" +
            shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " +
-           author_html(c.printed, c.author, frame.demo) + ", rules " + escape_html(c.rule_version) +
-           "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
+           author_html(c.printed, c.author, frame.demo) + ", rules " + escape_html(c.rule_version) + "</p><p><small>" +
+           escape_html(evidence_text(c.evidence)) + "</small></p>";
     if (const auto shaken = view.shaken.find(c.uuid); shaken != view.shaken.end())
       out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(shaken->second) +
              ". Look, and withdraw it if it must not stand.</p>";
@@ -235,11 +235,10 @@ std::string title(const TraineeView& view, const Frame& frame) {
   for (const std::string& group : view.groups)
     groups += (groups.empty() ? "" : ", ") +
               (frame.own_code.empty() ? verbatim_link("/" + query_html({{"group", group}}), group) : verbatim(group));
-  return "<div class=\"title\"><h1>" + verbatim(view.name.empty() ? view.code : view.name) +
-         "</h1><p class=\"dim\">" + (view.name.empty() ? "" : verbatim(view.code) + ", ") +
-         (groups.empty() ? "in no group" : "group " + groups) + ", rules " +
-         escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) + "</p><p class=\"files\">" +
-         link_html(path + "/attempts.csv", "CSV") +
+  return "<div class=\"title\"><h1>" + verbatim(view.name.empty() ? view.code : view.name) + "</h1><p class=\"dim\">" +
+         (view.name.empty() ? "" : verbatim(view.code) + ", ") + (groups.empty() ? "in no group" : "group " + groups) +
+         ", rules " + escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) +
+         "</p><p class=\"files\">" + link_html(path + "/attempts.csv", "CSV") +
          (frame.pdf ? " " + link_html("/report/trainee/" + url_part(view.code) + ".pdf", "PDF") : "") + "</p></div>";
 }
 

@@ -11,12 +11,12 @@
 namespace trocar::review {
 namespace {
 
-constexpr int kDeepestPart = 4;  ///< parts in parts
+constexpr int kDeepestPart = 8;  ///< parts in parts
 constexpr std::array<std::string_view, 12> kEnglishMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                              "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-constexpr std::array<std::string_view, 25> kUnits = {
-    "%",   "mm",  "mm/s", "m",      "m/s", "s",  "N",  "N/s", "N s", "N/mm", "J",  "Hz",  "kHz",
-    "deg", "mL", "mL/min", "min", "h",  "MB", "kB",  "ms",  "UTC",  "kg", "SD", "x"};
+constexpr std::array<std::string_view, 25> kUnits = {"%",    "mm", "mm/s", "m",   "m/s", "s",  "N",      "N/s", "N s",
+                                                     "N/mm", "J",  "Hz",   "kHz", "deg", "mL", "mL/min", "min", "h",
+                                                     "MB",   "kB", "ms",   "UTC", "kg",  "SD", "x"};
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool small(char c) { return c >= 'a' && c <= 'z'; }
@@ -183,7 +183,8 @@ PageLanguage::PageLanguage(const std::filesystem::path& folder, const std::strin
   }
   if (decimal_.empty() || day_.find("{0}") == std::string::npos || months_.size() != kEnglishMonths.size() ||
       !root["words"].is_table())
-    throw InputError(file.string(), 1, 1, "decimal, day with {0} {1} {2}, twelve months and the table [words] are needed");
+    throw InputError(file.string(), 1, 1,
+                     "decimal, day with {0} {1} {2}, twelve months and the table [words] are needed");
   for (const auto& [name, node] : *root["words"].as_table()) {
     const std::string own = text_in(file, node);
     try {

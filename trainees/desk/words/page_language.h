@@ -1,15 +1,16 @@
 // The desk in other languages: a finished English page in, the same page with its words translated out.
 //
-// A catalogue (assets/languages/desk/de.toml) has the decimal sign, the form of a day, twelve months, and a table [words]
-// of "English" = "translation"; what it lacks comes from the window's (assets/languages/de.toml), so that exercises,
-// events and measures have one name. A key may have places: {n} a number with at most a unit, a date or a time; {p} a part
-// that has a translation itself; {t} any text, which stays as it is (a name, a code). The translation has the same ones;
-// where their order differs, {p2} is the second {p} of the key. What no entry fits stays English.
+// A catalogue (assets/languages/desk/de.toml) has the decimal sign, the form of a day, twelve months, and a table
+// [words] of "English" = "translation"; what it lacks comes from the window's (assets/languages/de.toml), so that
+// exercises, events and measures have one name. A key may have places: {n} a number with at most a unit, a date or a
+// time; {p} a part that has a translation itself; {t} any text, which stays as it is (a name, a code). The translation
+// has the same ones; where their order differs, {p2} is the second {p} of the key. What no entry fits stays English.
 //
-// Looked up are texts between tags and the attributes alt, aria-label, data-words (what the script says), placeholder and title, each as a whole; then
-// without punctuation round it, with a small first letter, and sentence by sentence. Elements with translate="no", code,
-// classes "mono", "said" and "written", style and script are left alone: what people wrote stands there.
-// docs/decisions/0031-desk-languages.md says why it is done this way. Plain values, any thread.
+// Looked up are texts between tags and the attributes alt, aria-label, data-words (what the script says), placeholder
+// and title, each as a whole; then without punctuation round it, with a small first letter, and sentence by sentence.
+// Elements with translate="no", code, classes "mono", "said" and "written", style and script are left alone: what
+// people wrote stands there. docs/decisions/0031-desk-languages.md says why it is done this way. Plain values, any
+// thread.
 #pragma once
 
 #include <array>

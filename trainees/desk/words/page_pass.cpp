@@ -35,8 +35,11 @@ std::optional<std::string> plain_text(std::string_view escaped) {
       continue;
     }
     bool known = false;
-    for (const auto& [entity, character] :
-         {std::pair<std::string_view, char>{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}}) {
+    for (const auto& [entity, character] : {std::pair<std::string_view, char>{"&amp;", '&'},
+                                            {"&lt;", '<'},
+                                            {"&gt;", '>'},
+                                            {"&quot;", '"'},
+                                            {"&#39;", '\''}}) {
       if (!escaped.substr(at).starts_with(entity)) continue;
       out += character;
       at += entity.size();
@@ -128,7 +131,8 @@ class PagePass {
       }
       const std::size_t value = to + 2, close = std::min(html_.find('"', value), html_.size());
       const std::string_view said = html_.substr(value, close - value);
-      foreign = foreign || (attribute == "translate" && said == "no") || (attribute == "class" && has_foreign_class(said));
+      foreign =
+          foreign || (attribute == "translate" && said == "no") || (attribute == "class" && has_foreign_class(said));
       if (among(kReadAttributes, attribute) || (name == "html" && attribute == "lang"))
         read_.emplace_back(value, close);
       to = std::min(close + 1, html_.size());

@@ -29,7 +29,8 @@ class PageLanguageFile : public TemporaryFolder {
  protected:
   PageLanguage language(const std::string& words) {
     std::filesystem::create_directories(folder_ / "desk");
-    std::ofstream(folder_ / "de.toml") << "name = \"Deutsch\"\n[words]\n\"Hold\" = \"Halten\"\n\"{0} of {1}\" = \"x\"\n";
+    std::ofstream(folder_ / "de.toml")
+        << "name = \"Deutsch\"\n[words]\n\"Hold\" = \"Halten\"\n\"{0} of {1}\" = \"x\"\n";
     std::ofstream(folder_ / "desk/de.toml")
         << "decimal = \",\"\nday = \"{0}. {1} {2}\"\nmonths = [\"Jan.\", \"Feb.\", \"M\xC3\xA4rz\", \"Apr.\", \"Mai\", "
            "\"Juni\", \"Juli\", \"Aug.\", \"Sep.\", \"Okt.\", \"Nov.\", \"Dez.\"]\n[words]\n"
@@ -129,20 +130,33 @@ class AllPages : public testing::Test {
 
   std::vector<std::string> pages() {
     Frame frame = sample_frame();
-    std::vector<std::string> out{cohort_page(sample_cohort(), frame),     trainee_page(sample_trainee(), frame),
-                                 attempt_page(sample_attempt(), frame),   attempt_page(sample_attempt(90, 1), frame),
-                                 compare_page(sample_compare(), frame),   curriculum_page(sample_curriculum(), frame),
-                                 station_page(sample_stations(), frame),  station_page({}, frame),
-                                 cohort_page({}, frame),                  password_page(false, frame),
-                                 password_page(true, frame),              sign_in_page({}).body};
+    std::vector<std::string> out{cohort_page(sample_cohort(), frame),
+                                 trainee_page(sample_trainee(), frame),
+                                 attempt_page(sample_attempt(), frame),
+                                 attempt_page(sample_attempt(90, 1), frame),
+                                 compare_page(sample_compare(), frame),
+                                 curriculum_page(sample_curriculum(), frame),
+                                 station_page(sample_stations(), frame),
+                                 station_page({}, frame),
+                                 cohort_page({}, frame),
+                                 password_page(false, frame),
+                                 password_page(true, frame),
+                                 sign_in_page({}).body};
     for (const int status : {400, 401, 403, 404, 405, 408, 411, 413, 414, 415, 421, 429, 431, 500, 503, 505, 507})
       out.push_back(error_page(status).body);
     const std::string attempt = AttemptStore(database_).latest()->uuid;
     ask("POST", "/attempt/" + attempt + "/note", {{"text", "Not signed yet."}});
     ask("POST", "/attempt/" + attempt + "/sign", {{"meaning", "approval"}, {"note", "Ready"}});
     ask("POST", "/roster/add", {{"code", "X-1"}, {"name", "Not started"}, {"email", ""}, {"group", "Cohort"}});
-    ask("POST", "/programme", {{"name", "Grid"}, {"do", "save"}, {"s1.step", "surface-touch|L1"}, {"s1.passes", "2"},
-                               {"s1.days", "1"}, {"s1.row", "yes"}, {"s1.input", ""}, {"s1.due", "10"}});
+    ask("POST", "/programme",
+        {{"name", "Grid"},
+         {"do", "save"},
+         {"s1.step", "surface-touch|L1"},
+         {"s1.passes", "2"},
+         {"s1.days", "1"},
+         {"s1.row", "yes"},
+         {"s1.input", ""},
+         {"s1.due", "10"}});
     ask("POST", "/programmes/assign", {{"programme", "Grid"}, {"group", "Cohort"}, {"trainee", ""}, {"due", ""}});
     for (const std::string& path :
          {std::string("/"), std::string("/why"), std::string("/roster"), std::string("/roster/import"),
@@ -251,14 +265,15 @@ TEST_F(AllPages, NothingIsTranslatedInVain) {
 TEST_F(AllPages, AnAttemptsPageIsTranslatedInAFewMilliseconds) {
   const PageLanguage german(kFolder, "de");
   AttemptView view = sample_attempt();
-  for (int i = 0; i < 42; ++i) view.result.events.push_back({1.0 * i, "TARGET_HELD", Severity::kInfo, i, 1.1, "N", Vec3::Zero()});
+  for (int i = 0; i < 42; ++i)
+    view.result.events.push_back({1.0 * i, "TARGET_HELD", Severity::kInfo, i, 1.1, "N", Vec3::Zero()});
   const std::string html = attempt_page(view, sample_frame());
   double best_ms = 1e9;
   for (int i = 0; i < 10; ++i) {
     const auto begin = std::chrono::steady_clock::now();
     german.page(html);
-    best_ms = std::min(
-        best_ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    best_ms =
+        std::min(best_ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
   }
   RecordProperty("bytes", static_cast<int>(html.size()));
   RecordProperty("best_us", static_cast<int>(1000 * best_ms));
