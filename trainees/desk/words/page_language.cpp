@@ -14,9 +14,9 @@ namespace {
 constexpr int kDeepestPart = 8;  ///< parts in parts
 constexpr std::array<std::string_view, 12> kEnglishMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                              "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-constexpr std::array<std::string_view, 25> kUnits = {"%",    "mm", "mm/s", "m",   "m/s", "s",  "N",      "N/s", "N s",
-                                                     "N/mm", "J",  "Hz",   "kHz", "deg", "mL", "mL/min", "min", "h",
-                                                     "MB",   "kB", "ms",   "UTC", "kg",  "SD", "x"};
+constexpr std::array<std::string_view, 30> kUnits = {
+    "B", "rad", "rad/s", "N^2", "1/s", "%",      "mm",  "mm/s", "m",  "m/s", "s",  "N",   "N/s", "N s", "N/mm",
+    "J", "Hz",  "kHz",   "deg", "mL",  "mL/min", "min", "h",    "MB", "kB",  "ms", "UTC", "kg",  "SD",  "x"};
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool small(char c) { return c >= 'a' && c <= 'z'; }
@@ -36,13 +36,16 @@ std::size_t month_of(std::string_view token) {
                                   kEnglishMonths.begin());
 }
 
-/// Digits and signs; a level ("L2"), an exponent.
+/// Digits and signs; a level or a number of an exercise ("L2", "EX2"), an exponent.
 bool valued(std::string_view token) {
   if (token.empty()) return false;
+  const std::size_t capitals = static_cast<std::size_t>(
+      std::find_if_not(token.begin(), token.end(), [](char c) { return large(c); }) - token.begin());
+  const bool numbered = capitals <= 2 && capitals < token.size() && digit(token[capitals]);
   for (std::size_t i = 0; i < token.size(); ++i) {
     const char c = token[i];
     const auto byte = static_cast<unsigned char>(c);
-    const bool level = large(c) && i == 0 && token.size() > 1 && digit(token[1]);
+    const bool level = numbered && i < capitals;
     const bool exponent = c == 'e' && i > 0 && digit(token[i - 1]) && i + 1 < token.size();
     const bool letter = byte == 0xC3 && i + 1 < token.size() && static_cast<unsigned char>(token[i + 1]) != 0x97;
     const bool foreign = byte >= 0xC4 && byte < 0xE2;
@@ -142,7 +145,7 @@ std::vector<PageLanguage::Piece> PageLanguage::pieces_of(std::string_view text) 
 }
 
 void PageLanguage::add(const std::string& key, const std::string& own) {
-  Form form{key, pieces_of(key), pieces_of(own), 0};
+  Form form{key, pieces_of(key), pieces_of(own), 0, {}};
   const auto places = [](const std::vector<Piece>& pieces) {
     std::vector<std::pair<char, std::size_t>> out;
     for (const Piece& piece : pieces)
@@ -162,6 +165,7 @@ void PageLanguage::add(const std::string& key, const std::string& own) {
     if (i > 0 && form.english[i].kind != ' ' && form.english[i - 1].kind != ' ')
       throw InputError("'" + key + "' has two places with nothing between them");
     form.literal += form.english[i].text.size();
+    if (form.english[i].text.size() > form.longest.size()) form.longest = form.english[i].text;
   }
   forms_.push_back(std::move(form));
 }
@@ -280,8 +284,9 @@ PageLanguage::Found PageLanguage::filled(std::string_view english, int depth, As
     if (some == &placed_ && english.size() > kLongestPlaced) break;
     for (const std::uint32_t i : *some) {
       const Form& form = forms_[i];
+      if (form.literal > english.size() || english.find(form.longest) == std::string_view::npos) continue;
       Values values;
-      if (form.literal > english.size() || !fits(form, 0, english, depth, values, asking)) continue;
+      if (!fits(form, 0, english, depth, values, asking)) continue;
       if (asking.words != nullptr) asking.words->used.insert(form.key);
       std::string out;
       for (const Piece& piece : form.own)

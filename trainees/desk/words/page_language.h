@@ -59,7 +59,8 @@ class PageLanguage {
   struct Form {
     std::string key = {};
     std::vector<Piece> english = {}, own = {};
-    std::size_t literal = 0;  ///< letters that it says by itself: the more, the surer the match
+    std::size_t literal = 0;   ///< letters that it says by itself: the more, the surer the match
+    std::string longest = {};  ///< of its literals: what lacks it does not fit
   };
   struct Values {
     std::vector<std::string> n = {}, p = {}, t = {};  ///< of {p} still in English
