@@ -78,7 +78,7 @@ std::string grid_cell(const ProgrammeLine& line, const ProgrammeStep& step, cons
     out += "<br/><small>" + escape_html(missing_words(step, cell.progress)) + "</small>";
   if (is_open(cell) && cell.due_s != usual)
     out +=
-        "<br/><small class=\"dim\">" + (cell.due_s ? "by " + day_html(due_day(*cell.due_s)) : "no date") + "</small>";
+        "<br/><small class=\"dim\">" + (cell.due_s ? "due " + day_html(due_day(*cell.due_s)) : "no date") + "</small>";
   return out + "</td>";
 }
 
@@ -142,7 +142,7 @@ std::string grid_head(const GridView& view, const std::vector<Due>& usual) {
     const ProgrammeStep& step = view.grid.programme.steps[at];
     out += "<th scope=\"col\">" + std::to_string(at + 1) + ". " + escape_html(step_title(view.titles, step)) +
            "<br/><small>" + escape_html(rule_words(step)) +
-           (usual[at] ? "<br/>by " + day_html(due_day(*usual[at])) : "") + "</small></th>";
+           (usual[at] ? "<br/>due " + day_html(due_day(*usual[at])) : "") + "</small></th>";
   }
   return out;
 }
@@ -242,15 +242,15 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
                   text_field("f-days", "days", "Overdue, or due within days", days,
                              "type=\"number\" min=\"0\" max=\"3660\" required=\"required\"") +
                   "<p class=\"field\"><button>Show</button></p></form>" +
-                  (rows.empty()
-                       ? "<p>Nothing is overdue, and nothing falls due within " + plural(view.days, "day", "days") +
-                             ".</p>"
-                       : table("Steps with a deadline that are not passed, the latest first; days end in UTC" +
-                                   (shown < view.lines.size()
-                                        ? "; the first " + std::to_string(shown) + ", all of them in the CSV file"
-                                        : std::string()),
-                               head_cells({"Trainee", "Groups", "Programme", "Step", "By", "When", "State", "Missing"}),
-                               rows))));
+                  (rows.empty() ? "<p>Nothing is overdue, and nothing falls due within " +
+                                      plural(view.days, "day", "days") + ".</p>"
+                                : table("Steps with a deadline that are not passed, the latest first; days end in UTC" +
+                                            (shown < view.lines.size() ? "; the first " + std::to_string(shown) +
+                                                                             ", all of them in the CSV file"
+                                                                       : std::string()),
+                                        head_cells({"Trainee", "Groups", "Programme", "Step", "Due", "When", "State",
+                                                    "Missing"}),
+                                        rows))));
 }
 
 }  // namespace trocar::review

@@ -319,6 +319,12 @@ PageLanguage::Found PageLanguage::known(std::string_view english, int depth, Ask
   return out ? Found(with_capital(std::move(*out))) : std::nullopt;
 }
 
+/// What stands between two parts: French has a space before a semicolon too.
+std::string PageLanguage::joint(std::string_view english) const {
+  const auto at = exact_.find(std::string(english));
+  return at == exact_.end() ? std::string(english) : at->second;
+}
+
 /// All of its sentences, or parts between semicolons and commas; each must be known.
 PageLanguage::Found PageLanguage::sentences(std::string_view english, int depth, Asking& asking) const {
   for (const std::string_view between : {". ", "; ", ", "}) {
@@ -328,7 +334,7 @@ PageLanguage::Found PageLanguage::sentences(std::string_view english, int depth,
     const auto first = found(english.substr(0, at + stop), depth + 1, asking);
     if (!first) continue;
     const auto rest = found(english.substr(at + 2), depth, asking);
-    if (rest) return *first + std::string(between.substr(stop)) + *rest;
+    if (rest) return *first + joint(between.substr(stop)) + *rest;
   }
   return std::nullopt;
 }
@@ -362,7 +368,7 @@ std::string PageLanguage::said(std::string_view english, Asking& asking) const {
     const std::size_t at = english.find(between);
     if (at == std::string_view::npos || at == 0 || at + 2 >= english.size()) continue;
     const std::size_t stop = between[0] == '.' ? 1 : 0;
-    return said(english.substr(0, at + stop), asking) + std::string(between.substr(stop)) +
+    return said(english.substr(0, at + stop), asking) + joint(between.substr(stop)) +
            said(english.substr(at + 2), asking);
   }
   if (asking.words != nullptr) asking.words->unknown.emplace(english);

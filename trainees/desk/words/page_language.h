@@ -80,6 +80,7 @@ class PageLanguage {
             Asking& asking) const;
   bool parts_known(Values& values, int depth, Asking& asking) const;
   std::string said(std::string_view english, Asking& asking) const;
+  std::string joint(std::string_view english) const;
   std::string number(std::string_view text) const;
 
   std::string code_, decimal_, day_;
