@@ -210,6 +210,7 @@ void tell_demo(Database& database, const std::vector<Planned>& planned) {
   curricula.add(kStories, stories(planned), author);
   for (const DemoPerson& person : demo_people()) curricula.join(person.code, person.group, author);
   add_demo_assessments(database, author);
+  add_demo_programme(database, author);
 }
 
 }  // namespace

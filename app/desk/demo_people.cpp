@@ -1,6 +1,9 @@
 #include "app/desk/demo_people.h"
 
+#include "trainees/progress/calendar.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/programmes.h"
 
 namespace trocar {
 
@@ -58,6 +61,34 @@ void add_demo_assessments(Database& database, const Author& author) {
                          "Steady and gentle. Come back in two weeks for the attempt that shows it lasts.", author);
     assessments.sign(latest->uuid, "review", "Seen from beginning to end.", author);
   }
+}
+
+void add_demo_programme(Database& database, const Author& author) {
+  constexpr const char* kName = "Demo basics";
+  constexpr const char* kSteps = R"([[step]]
+exercise = "surface-touch"
+level = "L1"
+passes = 3
+in_a_row = true
+
+[[step]]
+exercise = "reach-and-orient"
+level = "L1"
+passes = 3
+days = 2
+
+[[step]]
+exercise = "limited-grasp"
+level = "L1"
+sign_off = true
+)";
+  ProgrammeStore programmes(database);
+  programmes.save(kName, kSteps, author);
+  const auto in_days = [now = seconds_of_utc(utc_now()).value_or(0)](int days) {
+    return utc_of_seconds(now + days * kSecondsADay).substr(0, 10);
+  };
+  programmes.assign(kName, "", "Demo autumn", in_days(-7), author);
+  programmes.assign(kName, "", "Demo spring", in_days(30), author);
 }
 
 }  // namespace trocar

@@ -29,4 +29,7 @@ const std::vector<DemoPerson>& demo_people();
 /// A note to the one who is stuck, a signature and a certificate for the one who came experienced.
 void add_demo_assessments(Database& database, const Author& author);
 
+/// A programme of three steps for both groups: one is late with it, the other has a month left.
+void add_demo_programme(Database& database, const Author& author);
+
 }  // namespace trocar

@@ -16,6 +16,7 @@
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/demo_record.h"
+#include "trainees/records/programmes.h"
 
 namespace trocar::demo_cohort_test {
 namespace {
@@ -71,6 +72,7 @@ TEST(DemoCohort, IsMarkedChainedAndInOrderOfItsDates) {
     EXPECT_EQ(trainee.weeks.back().monday, monday_of(ended)) << "the week that it ended in";
   }
   EXPECT_EQ(CurriculumStore(database).members("Demo spring").size(), 4u);
+  EXPECT_EQ(ProgrammeStore(database).assignments().size(), 2u);
   ASSERT_EQ(AssessmentStore(database).notes_of("demo-chen").size(), 1u);
 }
 

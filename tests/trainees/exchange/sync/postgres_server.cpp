@@ -70,8 +70,8 @@ PostgresServer::PostgresServer() : programs_(newest_programs()) {
     reason_ = "initdb failed: " + (folder_ / "commands.log").string();
   }
   const int number = static_cast<int>(getpid());
-  listens_ = "127." + std::to_string(number >> 16 & 255) + "." + std::to_string(number >> 8 & 255) + "." +
-             std::to_string((number & 255) | 2);
+  listens_ = "127." + std::to_string(number >> 14 & 255) + "." + std::to_string(1 + (number >> 7 & 127)) + "." +
+             std::to_string(1 + (number & 127));
   if (reason_.empty())
     std::ofstream(folder_ / "data" / "pg_hba.conf", std::ios::app) << "host all all 127.0.0.0/8 scram-sha-256\n";
   if (reason_.empty() && !as_server("pg_ctl -D " + data + " -l " + at + "/server.log -w -t 60 -o \"-k " + at +

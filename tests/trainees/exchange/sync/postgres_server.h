@@ -20,6 +20,8 @@ class PostgresServer {
   PostgresServer& operator=(const PostgresServer&) = delete;
 
   const std::string& reason() const { return reason_; }
+  /// PostgreSQL is on this machine: then a server that does not start is a failure.
+  bool installed() const { return !programs_.empty(); }
   /// An empty database of that name.
   CentralAddress make_database(const std::string& name);
   /// A database that is what the other is now: a backup, to be put back later. Nobody may be connected to the other.
