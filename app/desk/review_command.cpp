@@ -81,6 +81,15 @@ std::vector<review::ExerciseLevels> shipped_exercises() {
   }
 }
 
+/// Without them the desk is in English.
+std::shared_ptr<const review::PageLanguages> shipped_languages() {
+  try {
+    return std::make_shared<review::PageLanguages>(std::filesystem::path(find_assets().assets) / "languages");
+  } catch (const EnvironmentError&) {
+    return nullptr;
+  }
+}
+
 constexpr std::chrono::milliseconds kTurn{100};
 constexpr int kLast_turns = 30;
 
@@ -212,6 +221,7 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   served.sources.check_recordings = [&] { recordings.begin(); };
   served.sources.recorded_outcome = recorded_outcome;
   served.routes = review::desk_routes();
+  served.languages = shipped_languages();
   {
     Database opened = served.open();
     served.demo = is_demo(opened);

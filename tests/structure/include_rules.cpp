@@ -77,7 +77,7 @@ const std::vector<Territory>& territories() {
        "graphics libraries stay in sources of app/picture"},
       {"^CLI/", "^app/(main|(cli|desk|organs|studies|window)/.*)\\.cpp$",
        "command line options stay in sources of commands"},
-      {"^toml", "^(scenarios|tissue|trainees/progress|app/window/(words|attempt))/.*\\.cpp$",
+      {"^toml", "^(scenarios|tissue|trainees/(progress|desk/words)|app/window/(words|attempt))/.*\\.cpp$",
        "TOML is read in sources of scenarios, tissue, progress rules, words and settings"},
       {"^imgui|^GLFW/", "^app/window/.*\\.cpp$", "the window's libraries stay in sources of app/window"},
       {"^AL/", "^app/window/sound/.*\\.cpp$", "OpenAL stays in sources of app/window/sound"},

@@ -56,6 +56,11 @@
   follow();
   again();
 })();
+// A sentence of the page with other numbers in it: so it stays in the page's language.
+function refilled(words, values) {
+  var i = 0;
+  return words.replace(/[0-9]+([.,])[0-9]+/g, function (old, sign) { return i < values.length ? values[i++].replace('.', sign) : old; });
+}
 // A picture that follows a slider. The first one of an attempt takes some seconds, since the run is replayed before: it is asked for again.
 function follower(picture) {
   var wanted = null, loading = false, tries = 0, last = picture.getAttribute('src');
@@ -74,9 +79,9 @@ function follower(picture) {
   picture.addEventListener('load', function () { loading = false; tries = 0; load(); });
   picture.addEventListener('error', failed);
   if (picture.complete && picture.naturalWidth === 0 && picture.getAttribute('loading') !== 'lazy') failed();
-  return function (t, words) {
+  return function (t) {
     wanted = picture.getAttribute('data-base') + t.toFixed(2);
-    picture.alt = words + ' at ' + t.toFixed(1) + ' s';
+    picture.alt = refilled(picture.alt, [t.toFixed(1)]);
     load();
   };
 }
@@ -91,15 +96,15 @@ document.querySelectorAll('img.patient').forEach(follower);
   var sides = [];
   document.querySelectorAll('#moment img.follows').forEach(function (picture) {
     sides.push({ show: follower(picture), shift: parseFloat(picture.getAttribute('data-shift')), length: parseFloat(picture.getAttribute('data-length')),
-                 words: picture.alt.replace(/ at [0-9.]+ s$/, ''), at: picture.parentNode.querySelector('output') });
+                 at: picture.parentNode.querySelector('output') });
   });
-  var plot = document.querySelector('svg.time'), cursor = document.getElementById('cursor');
+  var plot = document.querySelector('svg.time'), cursor = document.getElementById('cursor'), beyond = slider.getAttribute('data-words').split('; ');
   function show() {
     var t = parseFloat(slider.value);
     sides.forEach(function (side) {
       var own = Math.min(Math.max(t + side.shift, 0), side.length);
-      side.show(own, side.words);
-      side.at.textContent = t + side.shift < 0 ? 'not begun' : t + side.shift > side.length ? 'over' : own.toFixed(1) + ' s';
+      side.show(own);
+      side.at.textContent = t + side.shift < 0 ? beyond[0] : t + side.shift > side.length ? beyond[1] : own.toFixed(1) + ' s';
     });
     if (plot && cursor) {
       var end = parseFloat(plot.getAttribute('data-end')), left = parseFloat(plot.getAttribute('data-left')), right = parseFloat(plot.getAttribute('data-right'));
@@ -129,9 +134,9 @@ document.querySelectorAll('img.patient').forEach(follower);
     t = Math.min(Math.max(t, 0), end);
     if (cursor) cursor.setAttribute('transform', 'translate(' + (left + (right - left) * t / end).toFixed(1) + ' 0)');
     var slot = Math.min(forces.length - 1, Math.floor(t / end * forces.length));
-    now.textContent = t.toFixed(1) + ' s: up to ' + forces[slot] + ' N at the tip';
-    if (heading) heading.textContent = 'Force and picture at ' + t.toFixed(1) + ' s';
-    if (follow) follow(t, 'View of the scope');
+    now.textContent = refilled(now.getAttribute('data-words'), [t.toFixed(1), forces[slot]]);
+    if (heading) heading.textContent = refilled(heading.textContent, [t.toFixed(1)]);
+    if (follow) follow(t);
   }
   function neighbour(next, otherwise) {
     var here = parseFloat(slider.value), best = otherwise, found = false;

@@ -15,7 +15,7 @@ std::string account_path(const Account& account, const char* action) {
 std::string password_form(const Account& account, const Frame& frame) {
   const std::string form = "password-" + account.login, id = "p-" + url_part(account.login);
   return std::string("<details") + (frame.refused.form == form ? " open=\"open\"" : "") +
-         "><summary>New password<span class=\"unseen\"> for " + escape_html(account.login) + "</span></summary>" +
+         "><summary>New password<span class=\"unseen\"> for " + verbatim(account.login) + "</span></summary>" +
          form_begin(account_path(account, "password"), frame) +
          text_field(
              id, "password",
@@ -27,18 +27,18 @@ std::string password_form(const Account& account, const Frame& frame) {
 std::string switch_form(const Account& account, const Frame& frame) {
   const bool disabled = !account.disabled_utc.empty();
   return form_begin(account_path(account, disabled ? "enable" : "disable"), frame) + "<button class=\"small\">" +
-         (disabled ? "Enable" : "Disable") + "<span class=\"unseen\"> " + escape_html(account.login) +
+         (disabled ? "Enable" : "Disable") + "<span class=\"unseen\" translate=\"no\"> " + escape_html(account.login) +
          "</span></button></form>" + why_refused(frame, "switch-" + account.login);
 }
 
 std::string row(const Account& account, const AccountsView& view, const Frame& frame) {
   const bool disabled = !account.disabled_utc.empty();
-  return "<tr><th scope=\"row\">" + escape_html(account.login) +
-         (account.login == view.own_login ? " <span class=\"tag\">you</span>" : "") + "</th>" + cell(account.name) +
-         cell(role_name(account.role)) + "<td>" +
+  return "<tr><th scope=\"row\">" + verbatim(account.login) +
+         (account.login == view.own_login ? " <span class=\"tag\">you</span>" : "") + "</th>" +
+         verbatim_cell(account.name) + cell(role_name(account.role)) + "<td>" +
          (account.trainee_code.empty()
               ? ""
-              : link_html("/trainee/" + url_part(account.trainee_code), account.trainee_code)) +
+              : verbatim_link("/trainee/" + url_part(account.trainee_code), account.trainee_code)) +
          "</td><td>" + day_html(account.created_utc) + "</td><td>" + shape(disabled ? "fail" : "pass") +
          (disabled ? "disabled " : "may sign in") + (disabled ? day_html(account.disabled_utc) : "") + "</td><td>" +
          switch_form(account, frame) + password_form(account, frame) + "</td></tr>";
@@ -62,8 +62,9 @@ std::string new_account(const AccountsView& view, const Frame& frame) {
          text_field("a-name", "name", "Name, as it is printed", kept(frame, form, "name"),
                     "maxlength=\"100\" autocomplete=\"off\"") +
          select_field("a-role", "role", "Role", roles, kept(frame, form, "role")) +
-         (view.first ? std::string()
-                     : select_field("a-trainee", "trainee", "Of the trainee", codes, kept(frame, form, "trainee"))) +
+         (view.first
+              ? std::string()
+              : select_field("a-trainee", "trainee", "Of the trainee", codes, kept(frame, form, "trainee"), true)) +
          text_field("a-password", "password", "Password (of a trainee: or a PIN of 6 digits)", "", kPasswordField) +
          text_field("a-again", "again", "Password again", "", kPasswordField) + "</div>" + why_refused(frame, form) +
          "<p><button>Add the account</button></p></form>";

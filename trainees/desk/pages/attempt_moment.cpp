@@ -69,8 +69,9 @@ std::string scrub(const AttemptView& view) {
          "#moment\" data-force=\"" + force_slots(*view.trace, 400) +
          "\"><label for=\"t\">Time</label><input id=\"t\" name=\"t\" type=\"range\" min=\"0\" max=\"" +
          fixed_text(length_s(*view.trace), 1) + "\" step=\"0.1\" value=\"" + fixed_text(view.t_s, 1) +
-         "\"/><button>Show</button></form>" + "<p><output id=\"now\" for=\"t\">" + escape_html(now_words(view)) +
-         "</output></p>";
+         "\"/><button>Show</button></form>" +
+         "<p><output id=\"now\" for=\"t\" data-words=\"0.0 s: up to 0.0 N at the tip\">" +
+         escape_html(now_words(view)) + "</output></p>";
 }
 
 std::string picture(const AttemptView& view) {

@@ -21,9 +21,9 @@ std::string signatures(const AttemptView& view, bool demo) {
   if (view.signatures.empty()) return "<p class=\"dim\">Not signed yet.</p>";
   std::string rows;
   for (const Signature& s : view.signatures)
-    rows += "<tr><th scope=\"row\">" + escape_html(author_text(s.signer, s.account_uuid, demo)) + "</th>" +
-            cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\">" + escape_html(s.note) +
-            "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
+    rows += "<tr><th scope=\"row\">" + author_html(s.signer, s.account_uuid, demo) + "</th>" +
+            cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\" translate=\"no\">" +
+            escape_html(s.note) + "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
             (s.row_hash == view.row_hash ? "" : " <span class=\"tag\">other bytes</span>") + "</td></tr>";
   return table("Signatures", head_cells({"Signed by", "Meaning", "When", "Note", "Bound to"}), rows);
 }
@@ -47,7 +47,7 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
          text_field("sign-note", "note", "Note to the signature (may be empty)", kept(frame, "sign", "note"),
                     "maxlength=\"1000\"" + refused_field(frame, "sign")) +
          password_field("sign-password", frame) + why_refused(frame, "sign") + "<p><button>Sign" +
-         (frame.who.empty() ? "" : " as " + escape_html(frame.who)) +
+         (frame.who.empty() ? "" : " as " + verbatim(frame.who)) +
          "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt "
          "(row hash " +
          escape_html(view.row_hash.substr(0, 16)) + "). It cannot be taken back.</p></form>";
@@ -80,9 +80,9 @@ std::string certificate_list(const AttemptView& view, bool demo) {
     const Certificate& c = one.certificate;
     const bool held = c.revoked_utc.empty();
     out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(c.exercise_id) + " " +
-           escape_html(c.level) + ", " + day_html(c.utc) + ", " + escape_html(author_text(c.printed, c.author, demo)) +
-           ", rules " + escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
-           (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason)) + " " +
+           escape_html(c.level) + ", " + day_html(c.utc) + ", " + author_html(c.printed, c.author, demo) + ", rules " +
+           escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
+           (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + verbatim(c.revoked_reason)) + " " +
            link_html("/trainee/" + url_part(view.result.trainee) + "#certificates", "evidence");
     if (held && !one.in_question.empty())
       out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(one.in_question) +
@@ -108,8 +108,8 @@ std::string certificate_form(const AttemptView& view, const Frame& frame) {
   if (!view.verdict().passed)
     return why + "<p class=\"dim\">This attempt is not passed, so no certificate can cite it. Open one that is.</p>";
   return why + form_begin("/attempt/" + url_part(view.result.uuid) + "/certify", frame) +
-         password_field("certify-password", frame) + "<p><button>Certify " + escape_html(view.result.trainee) +
-         " for " + escape_html(view.exercise) + " " + escape_html(view.result.level) + "</button></p></form>";
+         password_field("certify-password", frame) + "<p><button>Certify " + verbatim(view.result.trainee) + " for " +
+         escape_html(view.exercise) + " " + escape_html(view.result.level) + "</button></p></form>";
 }
 
 std::string compare_section(const AttemptView& view, const Frame& frame) {
@@ -134,7 +134,7 @@ std::string title(const AttemptView& view, const Frame& frame) {
   const std::string path = "/attempt/" + url_part(view.result.uuid), code = view.result.trainee;
   return "<div class=\"title\"><h1>" + escape_html(view.exercise) + " " + escape_html(view.result.level) +
          "</h1><p class=\"dim\">" +
-         link_html(
+         verbatim_link(
              "/trainee/" + url_part(code) +
                  query_html(
                      {{"exercise", view.result.exercise_id}, {"level", view.result.level}, {"hand", view.result.hand}}),
@@ -154,8 +154,8 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
     out += "<ul>";
     for (const VerdictOverride& o : view.overrides)
       out += "<li>" + std::string(o.passed ? "Passed" : "Not passed") + ", " +
-             escape_html(author_text(o.printed, o.author, frame.demo)) + ", " + date_html(o.utc) + ": " +
-             escape_html(o.reason) + "</li>";
+             author_html(o.printed, o.author, frame.demo) + ", " + date_html(o.utc) + ": " + verbatim(o.reason) +
+             "</li>";
     out += "</ul>" + decision_clock_notice(view.overrides);
   }
   if (!frame.may_write) return section("sign", "Sign-off", out + certificate_list(view, frame.demo));
@@ -171,6 +171,7 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
 
 std::string attempt_page(const AttemptView& view, Frame frame) {
   frame.title = view.exercise + " " + view.result.level + ", " + view.result.trainee;
+  frame.title_verbatim = true;
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
                              subscore_table(view) + notes_section(view.notes, note_action, frame) + "</div><div>" +

@@ -139,8 +139,8 @@ std::string verdict_band(const AttemptView& view) {
   if (!view.overrides.empty()) {
     const VerdictOverride& o = view.overrides.front();
     out += "<p class=\"override\">" + shape(o.passed ? "pass" : "fail") + "<strong>" +
-           (o.passed ? "Passed" : "Not passed") + " by decision of " + escape_html(o.printed) + "</strong>, " +
-           date_html(o.utc) + ": " + escape_html(o.reason) + " <small>The score above stays as it was.</small></p>";
+           (o.passed ? "Passed" : "Not passed") + " by decision of " + verbatim(o.printed) + "</strong>, " +
+           date_html(o.utc) + ": " + verbatim(o.reason) + " <small>The score above stays as it was.</small></p>";
   }
   return out + "</section>";
 }

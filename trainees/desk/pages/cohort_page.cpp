@@ -65,7 +65,7 @@ std::string card(const CohortView& view, const CardWords& words) {
   out += "<ul>";
   for (std::size_t i = 0; i < who.size() && i < kNamesInCard; ++i) {
     const Judgement* why = judgement_of(*who[i], words.flag);
-    out += "<li>" + link_html(curve_href(*who[i]), shown_name(*who[i])) + " <span class=\"dim\">" +
+    out += "<li>" + verbatim_link(curve_href(*who[i]), shown_name(*who[i])) + " <span class=\"dim\">" +
            escape_html(who[i]->exercise) + " " + escape_html(who[i]->level) + "</span>" +
            (why == nullptr || why->evidence.empty() ? "" : "<br/><small>" + escape_html(why->evidence) + "</small>") +
            (why == nullptr || why->n == 0 ? "" : "<br/>" + basis_html(*why)) + "</li>";
@@ -92,7 +92,7 @@ std::string filters(const CohortView& view) {
       {"stuck", "stuck"}, {"integrity", "check record"}, {"plateau", "plateau"},   {"retention-due", "retention due"},
       {"ready", "ready"}, {"certified", "certified"},    {"learning", "learning"}, {"not-started", "not started"}};
   return "<form class=\"filters\" method=\"get\" action=\"/\">" +
-         select_field("f-group", "group", "Group", choices("all groups", view.groups), view.asked.group) +
+         select_field("f-group", "group", "Group", choices("all groups", view.groups), view.asked.group, true) +
          select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
          select_field("f-level", "level", "Level", choices("all levels", view.levels), view.asked.level) +
          select_field("f-state", "state", "State", states, view.asked.state) +
@@ -136,9 +136,9 @@ std::string row(const CohortEntry& line) {
   std::string states = badge(line.state());
   for (std::size_t i = 1; i < line.judgements.size(); ++i) states += " " + badge(line.judgements[i].flag);
   const std::string why = line.judgements.empty() ? "" : line.judgements.front().evidence;
-  return "<tr><th scope=\"row\">" + link_html(curve_href(line), shown_name(line)) +
-         (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") + "</th><td>" +
-         states + (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") +
+  return "<tr><th scope=\"row\">" + verbatim_link(curve_href(line), shown_name(line)) +
+         (line.name.empty() ? "" : " <small class=\"dim\">" + verbatim(line.code) + "</small>") + "</th><td>" + states +
+         (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") +
          (line.judgements.empty() || line.judgements.front().n == 0 ? ""
                                                                     : "<br/>" + basis_html(line.judgements.front())) +
          "</td><td>" + escape_html(line.exercise) +
@@ -261,9 +261,8 @@ std::string cohort_page(const CohortView& view, Frame frame) {
   const int count = static_cast<int>(lines.size()), pages = std::max(1, (count + kLinesOnPage - 1) / kLinesOnPage);
   CohortQuestion asked = view.asked;
   asked.page = std::clamp(asked.page, 1, pages);
-  std::string out = "<div class=\"title\"><h1>" +
-                    escape_html(asked.group.empty() ? "Cohort" : "Cohort " + asked.group) + "</h1><p class=\"dim\">" +
-                    headline(lines) +
+  std::string out = "<div class=\"title\"><h1>Cohort" + (asked.group.empty() ? "" : " " + verbatim(asked.group)) +
+                    "</h1><p class=\"dim\">" + headline(lines) +
                     (view.erased == 0 ? "" : ", " + std::to_string(view.erased) + " erased and left out") + ", rules " +
                     escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) +
                     "</p><p class=\"files\">" + link_html("/cohort.csv" + with(asked, "", ""), "CSV") +

@@ -130,7 +130,7 @@ std::string compare_moment_section(const CompareView& view) {
                                "</div></div>";
   const std::string form = "<form class=\"scrub\" id=\"together\" method=\"get\" action=\"" + base_of(view) +
                            "#moment\"><label for=\"both\">Time of the first</label><input id=\"both\" name=\"t\" "
-                           "type=\"range\" min=\"0\" max=\"" +
+                           "type=\"range\" data-words=\"not begun; over\" min=\"0\" max=\"" +
                            fixed_text(top_s, 1) + "\" step=\"0.1\" value=\"" + fixed_text(view.t_s, 1) + "\"/>" +
                            align_field(marks, view.aligned) + "<button>Show</button></form>";
   const std::string said = shift == 0 ? "Both from their own beginning."

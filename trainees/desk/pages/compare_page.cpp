@@ -68,10 +68,10 @@ std::string head_of(const AttemptView& view, const std::string& words, bool firs
       !grade.score && !judged.decision
           ? shape("void") + "not graded"
           : shape(judged.passed ? "pass" : "fail") + (judged.passed ? "pass" : "not yet") +
-                (judged.decision ? " by decision of " + escape_html(judged.decision->printed) : "");
+                (judged.decision ? " by decision of " + verbatim(judged.decision->printed) : "");
   return "<section class=\"card side\" aria-label=\"" + escape_html(words) + "\"><h2>" + swatch +
          "<a href=\"/attempt/" + url_part(view.result.uuid) + "\">" + escape_html(words) + "</a></h2><p><strong>" +
-         score_text(grade.score) + "</strong> " + verdict + ", " + escape_html(view.result.trainee) + ", " +
+         score_text(grade.score) + "</strong> " + verdict + ", " + verbatim(view.result.trainee) + ", " +
          date_html(view.result.started_utc) + "</p><p>" + escape_html(verdict_reason(view)) + "</p></section>";
 }
 

@@ -18,7 +18,7 @@ std::string preview_table(const std::vector<PassPreview>& preview, const std::st
     if (++shown > kShown) continue;
     const bool differs = p.passes_now && *p.passes_now != p.would_pass;
     rows += std::string("<tr") + (differs ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
-            link_html("/trainee/" + url_part(p.trainee), p.trainee) + "</th>" + cell(p.exercise + " " + p.level) +
+            verbatim_link("/trainee/" + url_part(p.trainee), p.trainee) + "</th>" + cell(p.exercise + " " + p.level) +
             "<td>" +
             (p.passes_now ? shape(*p.passes_now ? "pass" : "fail") + (*p.passes_now ? "yes" : "no")
                           : std::string("none is set")) +
@@ -56,7 +56,8 @@ std::string versions(const CurriculumView& view) {
         link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
                   c.name + (own_version(view, c).empty() ? "" : ", version " + own_version(view, c))) +
         "</th>" + number_cell(std::to_string(c.version)) + "<td>" + date_html(c.utc) + "</td>" +
-        cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
+        verbatim_cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) +
+        "</td></tr>";
   if (rows.empty())
     return section("versions", "Versions", "<p>None yet: the rules that came with the program hold.</p>");
   return section("versions", "Versions",
@@ -141,8 +142,8 @@ std::string benchmarks(const CurriculumView& view, const Frame& frame) {
   for (const Benchmark& b : view.benchmarks)
     rows += "<tr><th scope=\"row\">" + escape_html(b.exercise_id) + " " + escape_html(b.level) + "</th>" +
             cell(words_of(b.metric)) + number_cell(number_text(b.full_at)) + number_cell(number_text(b.zero_at)) +
-            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) + cell(author_name(view, b.author)) +
-            "<td>" + day_html(b.utc) + "</td></tr>";
+            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) +
+            verbatim_cell(author_name(view, b.author)) + "<td>" + day_html(b.utc) + "</td></tr>";
   const std::string listed =
       rows.empty()
           ? "<p>None yet.</p>"
@@ -174,17 +175,17 @@ std::string groups(const CurriculumView& view, const Frame& frame) {
   std::string out;
   int n = 0;
   for (const GroupView& group : view.groups) {
-    out += "<h3>" + link_html("/" + query_html({{"group", group.name}}), group.name) + " <small class=\"dim\">" +
+    out += "<h3>" + verbatim_link("/" + query_html({{"group", group.name}}), group.name) + " <small class=\"dim\">" +
            plural(static_cast<std::int64_t>(group.members.size()), "trainee", "trainees") +
            "</small></h3><ul class=\"members\">";
     for (const std::string& code : group.members) {
-      out += "<li>" + link_html("/trainee/" + url_part(code), code);
+      out += "<li>" + verbatim_link("/trainee/" + url_part(code), code);
       if (frame.may_write)
         out += form_begin("/curriculum/group", frame) +
                "<input type=\"hidden\" name=\"do\" value=\"leave\"/><input type=\"hidden\" name=\"group\" value=\"" +
                escape_html(group.name) + "\"/><input type=\"hidden\" name=\"trainee\" value=\"" + escape_html(code) +
-               "\"/><button class=\"small\" id=\"leave-" + std::to_string(++n) + "\">Remove<span class=\"unseen\"> " +
-               escape_html(code) + "</span></button></form>";
+               "\"/><button class=\"small\" id=\"leave-" + std::to_string(++n) +
+               "\">Remove<span class=\"unseen\" translate=\"no\"> " + escape_html(code) + "</span></button></form>";
       out += "</li>";
     }
     out += "</ul>";
@@ -196,7 +197,7 @@ std::string groups(const CurriculumView& view, const Frame& frame) {
   return section("groups", "Groups",
                  out + form_begin("/curriculum/group", frame) +
                      "<input type=\"hidden\" name=\"do\" value=\"join\"/><div class=\"fields\">" +
-                     select_field("g-trainee", "trainee", "Trainee", codes, kept(frame, "group", "trainee")) +
+                     select_field("g-trainee", "trainee", "Trainee", codes, kept(frame, "group", "trainee"), true) +
                      text_field("g-group", "group", "joins the group", kept(frame, "group", "group"),
                                 "maxlength=\"64\" required=\"required\"" + refused_field(frame, "group")) +
                      "</div>" + why_refused(frame, "group") + "<p><button>Add</button></p></form>");

@@ -1,5 +1,6 @@
 #include "trainees/desk/pages/desk_page.h"
 
+#include "trainees/desk/pages/page_frame.h"
 #include "trainees/markup/html.h"
 
 namespace trocar::review {
@@ -13,7 +14,7 @@ std::string document(const std::string& title, const std::string& body) {
          escape_html(title) +
          " - Trocar</title><link rel=\"icon\" href=\"/icon.svg\"><link rel=\"stylesheet\" href=\"/style.css\"></head>\n"
          "<body class=\"plain\"><main>\n" +
-         body + "</main></body></html>\n";
+         body + "</main><footer>" + language_links({}) + "</footer></body></html>\n";
 }
 
 std::string given_back(const std::string& written) {

@@ -48,8 +48,9 @@ std::string grid_filters(const GridView& view) {
   std::vector<Choice> states = {{"", "any state"}};
   for (const StepState state : kStepStates) states.emplace_back(step_state_key(state), step_state_words(state));
   return "<form class=\"filters\" method=\"get\" action=\"/grid\">" +
-         select_field("f-programme", "programme", "Programme", names_with("", view.programmes), view.asked.programme) +
-         select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.asked.group) +
+         select_field("f-programme", "programme", "Programme", names_with("", view.programmes), view.asked.programme,
+                      true) +
+         select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.asked.group, true) +
          select_field("f-state", "state", "With a step that is", states, view.asked.state) +
          select_field("f-away", "deactivated", "Deactivated", {{"", "left out"}, {"yes", "shown too"}},
                       view.asked.deactivated ? "yes" : "") +
@@ -77,7 +78,7 @@ std::string grid_cell(const ProgrammeLine& line, const ProgrammeStep& step, cons
     out += "<br/><small>" + escape_html(missing_words(step, cell.progress)) + "</small>";
   if (is_open(cell) && cell.due_s != usual)
     out +=
-        "<br/><small class=\"dim\">" + (cell.due_s ? "by " + day_html(due_day(*cell.due_s)) : "no date") + "</small>";
+        "<br/><small class=\"dim\">" + (cell.due_s ? "due " + day_html(due_day(*cell.due_s)) : "no date") + "</small>";
   return out + "</td>";
 }
 
@@ -109,8 +110,8 @@ std::vector<const ProgrammeLine*> shown_lines(const GridView& view) {
 
 std::string grid_row(const GridView& view, const ProgrammeLine& line, const std::vector<Due>& usual) {
   std::string out = "<tr><th scope=\"row\">" +
-                    link_html("/trainee/" + url_part(line.code), line.name.empty() ? line.code : line.name) +
-                    (line.name.empty() ? "" : " <small class=\"dim\">" + escape_html(line.code) + "</small>") +
+                    verbatim_link("/trainee/" + url_part(line.code), line.name.empty() ? line.code : line.name) +
+                    (line.name.empty() ? "" : " <small class=\"dim\">" + verbatim(line.code) + "</small>") +
                     (line.active ? "" : " <span class=\"tag\">deactivated</span>") + "</th>";
   for (std::size_t at = 0; at < line.cells.size(); ++at)
     out += grid_cell(line, view.grid.programme.steps[at], line.cells[at], usual[at]);
@@ -141,7 +142,7 @@ std::string grid_head(const GridView& view, const std::vector<Due>& usual) {
     const ProgrammeStep& step = view.grid.programme.steps[at];
     out += "<th scope=\"col\">" + std::to_string(at + 1) + ". " + escape_html(step_title(view.titles, step)) +
            "<br/><small>" + escape_html(rule_words(step)) +
-           (usual[at] ? "<br/>by " + day_html(due_day(*usual[at])) : "") + "</small></th>";
+           (usual[at] ? "<br/>due " + day_html(due_day(*usual[at])) : "") + "</small></th>";
   }
   return out;
 }
@@ -200,7 +201,7 @@ std::string grid_page(const GridView& view, Frame frame) {
   const std::string files = query_html(asked_items(view.asked));
   return document(
       frame,
-      "<div class=\"title\"><h1>" + escape_html(view.asked.programme) +
+      "<div class=\"title\"><h1>" + verbatim(view.asked.programme) +
           "</h1><p class=\"dim\">people and steps</p><p class=\"files\">" + link_html("/grid.csv" + files, "CSV") +
           link_html("/programme" + query_html({{"name", view.asked.programme}}), "Steps") +
           link_html("/reminders" + query_html({{"programme", view.asked.programme}, {"group", view.asked.group}}),
@@ -215,10 +216,10 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
   for (std::size_t at = 0; at < shown; ++at) {
     const Reminder& one = view.lines[at];
     rows += std::string("<tr") + (one.state == StepState::kOverdue ? " class=\"grave\"" : "") + "><th scope=\"row\">" +
-            link_html("/trainee/" + url_part(one.code), one.name.empty() ? one.code : one.name) +
-            (one.name.empty() ? "" : " <small class=\"dim\">" + escape_html(one.code) + "</small>") + "</th>" +
-            cell(joined_groups(one.groups)) + "<td>" +
-            link_html("/grid" + query_html({{"programme", one.programme}}), one.programme) + "</td>" +
+            verbatim_link("/trainee/" + url_part(one.code), one.name.empty() ? one.code : one.name) +
+            (one.name.empty() ? "" : " <small class=\"dim\">" + verbatim(one.code) + "</small>") + "</th>" +
+            verbatim_cell(joined_groups(one.groups)) + "<td>" +
+            verbatim_link("/grid" + query_html({{"programme", one.programme}}), one.programme) + "</td>" +
             cell(step_title(view.titles, one.step)) + "<td>" + day_html(one.due) + "</td>" +
             cell(days_words(one.days)) + "<td>" + state_badge(one.state) + "</td>" + cell(one.missing) + "</tr>";
   }
@@ -236,20 +237,20 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
               "reminders", "Who is late, and who soon would be",
               "<form class=\"filters\" method=\"get\" action=\"/reminders\">" +
                   select_field("f-programme", "programme", "Programme", names_with("all programmes", view.programmes),
-                               view.programme) +
-                  select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.group) +
+                               view.programme, true) +
+                  select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.group, true) +
                   text_field("f-days", "days", "Overdue, or due within days", days,
                              "type=\"number\" min=\"0\" max=\"3660\" required=\"required\"") +
                   "<p class=\"field\"><button>Show</button></p></form>" +
-                  (rows.empty()
-                       ? "<p>Nothing is overdue, and nothing falls due within " + plural(view.days, "day", "days") +
-                             ".</p>"
-                       : table("Steps with a deadline that are not passed, the latest first; days end in UTC" +
-                                   (shown < view.lines.size()
-                                        ? "; the first " + std::to_string(shown) + ", all of them in the CSV file"
-                                        : std::string()),
-                               head_cells({"Trainee", "Groups", "Programme", "Step", "By", "When", "State", "Missing"}),
-                               rows))));
+                  (rows.empty() ? "<p>Nothing is overdue, and nothing falls due within " +
+                                      plural(view.days, "day", "days") + ".</p>"
+                                : table("Steps with a deadline that are not passed, the latest first; days end in UTC" +
+                                            (shown < view.lines.size() ? "; the first " + std::to_string(shown) +
+                                                                             ", all of them in the CSV file"
+                                                                       : std::string()),
+                                        head_cells({"Trainee", "Groups", "Programme", "Step", "Due", "When", "State",
+                                                    "Missing"}),
+                                        rows))));
 }
 
 }  // namespace trocar::review

@@ -22,8 +22,9 @@ const char* fate_shape(RowFate fate) {
 std::string import_row(const ImportRow& row) {
   return std::string("<tr") + (row.fate == RowFate::kRefused ? " class=\"grave\"" : "") + ">" +
          number_cell(std::to_string(row.line)) + "<td>" + shape(fate_shape(row.fate)) + fate_words(row.fate) +
-         "</td><th scope=\"row\">" + escape_html(row.code) + "</th>" + cell(row.name) + cell(row.email) +
-         cell(row.group) + "<td class=\"long\">" + escape_html(sentence(row.reason)) + "</td></tr>";
+         "</td><th scope=\"row\" translate=\"no\">" + escape_html(row.code) + "</th>" + verbatim_cell(row.name) +
+         verbatim_cell(row.email) + verbatim_cell(row.group) + "<td class=\"long\">" +
+         escape_html(sentence(row.reason)) + "</td></tr>";
 }
 
 std::string import_table(const ImportPreview& preview, bool done) {
@@ -112,11 +113,11 @@ std::string cards_page(const std::vector<SignInCard>& cards, Frame frame) {
     pins = pins || !card.pin.empty();
     std::string groups;
     for (const std::string& group : card.groups) groups += (groups.empty() ? "" : ", ") + group;
-    out += "<li><p class=\"name\">" + escape_html(card.name.empty() ? card.code : card.name) +
-           "</p><p>Code <strong class=\"key-in\">" + escape_html(card.code) + "</strong></p>" +
+    out += "<li><p class=\"name\">" + verbatim(card.name.empty() ? card.code : card.name) +
+           "</p><p>Code <strong class=\"key-in\" translate=\"no\">" + escape_html(card.code) + "</strong></p>" +
            (card.pin.empty() ? "" : "<p>PIN <strong class=\"key-in\">" + escape_html(card.pin) + "</strong></p>") +
            (card.problem.empty() ? "" : "<p class=\"bad\">" + escape_html(sentence(card.problem)) + "</p>") +
-           "<p class=\"dim\">" + (groups.empty() ? "" : escape_html(groups) + ". ") +
+           "<p class=\"dim\">" + (groups.empty() ? "" : verbatim(groups) + ". ") +
            (card.pin.empty() ? "Type the code at the station."
                              : "Type the code at the station, then the PIN; the same PIN opens the desk (login " +
                                    escape_html(card.login) + "). Change it there.") +

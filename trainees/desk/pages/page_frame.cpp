@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "trainees/desk/server/path_redaction.h"
+#include "trainees/desk/words/page_language.h"
 #include "trainees/markup/html.h"
 #include "trainees/markup/svg.h"
 
@@ -57,10 +58,10 @@ std::string top(const Frame& frame) {
   std::string out = "<header class=\"top\"><span class=\"brand\">Trocar desk</span>" + (frame.ended ? "" : nav(frame));
   if (!frame.who.empty() && frame.signed_in)
     out += "<form class=\"who\" method=\"post\" action=\"/sign-out\"><input type=\"hidden\" name=\"token\" value=\"" +
-           escape_html(frame.token) + "\"/><span>" + escape_html(frame.who) + "</span>" +
-           link_html("/password", "Password") + "<button>Sign out</button></form>";
+           escape_html(frame.token) + "\"/>" + verbatim(frame.who) + link_html("/password", "Password") +
+           "<button>Sign out</button></form>";
   else if (!frame.who.empty())
-    out += "<p class=\"who\">" + escape_html(frame.who) + "</p>";
+    out += "<p class=\"who\">" + verbatim(frame.who) + "</p>";
   out += "</header>";
   if (!frame.demo) return out;
   out +=
@@ -72,9 +73,10 @@ std::string top(const Frame& frame) {
 
 /// What only paper shows: whose page it is and when it was made.
 std::string paper_line(const Frame& frame) {
-  return "<p class=\"paper\">Trocar desk: " + escape_html(frame.title) +
+  return "<p class=\"paper\">Trocar desk: " +
+         (frame.title_verbatim ? verbatim(frame.title) : escape_html(frame.title)) +
          (frame.now_utc.empty() ? "" : ". Printed from the page of " + date_html(frame.now_utc) + " UTC") +
-         (frame.who.empty() ? "" : ", " + escape_html(frame.who)) + "</p>";
+         (frame.who.empty() ? "" : ", " + verbatim(frame.who)) + "</p>";
 }
 
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
@@ -133,7 +135,7 @@ std::string document(const Frame& frame, const std::string& main_html) {
   // With script the page renews its parts instead (desk.js).
   if (frame.refresh_s > 0)
     out += "<noscript><meta http-equiv=\"refresh\" content=\"" + std::to_string(frame.refresh_s) + "\"/></noscript>";
-  out += "<title>" + escape_html(frame.title) +
+  out += std::string(frame.title_verbatim ? "<title translate=\"no\">" : "<title>") + escape_html(frame.title) +
          " - Trocar desk</title><link rel=\"icon\" href=\"/icon.svg\"/><link rel=\"stylesheet\" href=\"/style.css\"/>"
          "<script src=\"/desk.js\" defer=\"defer\"></script></head><body>"
          "<a class=\"skip\" href=\"#main\">Skip to the content</a>";
@@ -145,7 +147,7 @@ std::string document(const Frame& frame, const std::string& main_html) {
          "person signs.";
   if (!frame.now_utc.empty()) out += " Page made " + date_html(frame.now_utc) + " UTC.";
   out += central_footer(frame.central, frame.now_utc);
-  return out + "</p></footer></body></html>\n";
+  return out + "</p>" + language_links(frame.query) + "</footer></body></html>\n";
 }
 
 std::string kept(const Frame& frame, const std::string& form, const std::string& field, const std::string& otherwise) {
@@ -196,6 +198,24 @@ std::string query_html(const std::vector<std::pair<std::string, std::string>>& i
 
 std::string link_html(const std::string& href_html, const std::string& words) {
   return "<a href=\"" + href_html + "\">" + escape_html(words) + "</a>";
+}
+
+std::string verbatim_link(const std::string& href_html, const std::string& words) {
+  return "<a translate=\"no\" href=\"" + href_html + "\">" + escape_html(words) + "</a>";
+}
+
+std::string verbatim(const std::string& words) { return "<span translate=\"no\">" + escape_html(words) + "</span>"; }
+std::string verbatim_cell(const std::string& words) { return "<td translate=\"no\">" + escape_html(words) + "</td>"; }
+
+std::string language_links(const std::map<std::string, std::string>& query) {
+  std::string out = "<p class=\"languages\" translate=\"no\">";
+  for (const DeskTongue& one : kDeskTongues) {
+    std::vector<std::pair<std::string, std::string>> items(query.begin(), query.end());
+    items.emplace_back("lang", one.code);
+    out += std::string("<a lang=\"") + one.code + "\" hreflang=\"" + one.code + "\" href=\"" + query_html(items) +
+           "\">" + one.name + "</a> ";
+  }
+  return out + "</p>";
 }
 
 std::string shape(const std::string& name) {
@@ -307,6 +327,10 @@ std::string author_text(const std::string& printed, const std::string& account_u
   return printed + (demo ? " (of the demo)" : " (no account)");
 }
 
+std::string author_html(const std::string& printed, const std::string& account_uuid, bool demo) {
+  return verbatim(printed) + author_text("", account_uuid, demo);
+}
+
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,
                        const std::string& value, int rows, const std::string& extra_html) {
   return "<p class=\"field\">" + label_for(id, label) + "<textarea id=\"" + id + "\" name=\"" + name + "\" rows=\"" +
@@ -314,11 +338,12 @@ std::string area_field(const std::string& id, const std::string& name, const std
 }
 
 std::string select_field(const std::string& id, const std::string& name, const std::string& label,
-                         const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen) {
+                         const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen,
+                         bool choices_verbatim) {
   std::string out = "<p class=\"field\">" + label_for(id, label) + "<select id=\"" + id + "\" name=\"" + name + "\">";
   for (const auto& [value, words] : choices)
-    out += "<option value=\"" + escape_html(value) + "\"" + (value == chosen ? " selected=\"selected\"" : "") + ">" +
-           escape_html(words) + "</option>";
+    out += "<option value=\"" + escape_html(value) + "\"" + (value == chosen ? " selected=\"selected\"" : "") +
+           (choices_verbatim && !value.empty() ? " translate=\"no\">" : ">") + escape_html(words) + "</option>";
   return out + "</select></p>";
 }
 

@@ -24,10 +24,11 @@ struct RefusedForm {
 /// Around every page.
 struct Frame {
   std::string title = {};
-  std::string who = {};       ///< name of who looks; "" on pages before signing in
-  bool signed_in = true;      ///< by an account, so that signing out means something
-  std::string own_code = {};  ///< of a trainee: sees own pages only
-  std::string token = {};     ///< goes into every form
+  bool title_verbatim = false;  ///< it is a name or has one in it
+  std::string who = {};         ///< name of who looks; "" on pages before signing in
+  bool signed_in = true;        ///< by an account, so that signing out means something
+  std::string own_code = {};    ///< of a trainee: sees own pages only
+  std::string token = {};       ///< goes into every form
   std::string now_utc = {};
   bool demo = false;
   bool may_write = true;  ///< instructors and administrators
@@ -40,6 +41,7 @@ struct Frame {
   std::string notice = {};        ///< what has just been done
   ReplicaStatus central = {};     ///< of a desk that serves a central record
   RefusedForm refused = {};
+  std::map<std::string, std::string> query = {};  ///< of the page, kept when its language changes
 };
 
 /// What stood in that field of that form when it was refused, else `otherwise`.
@@ -60,6 +62,12 @@ std::string url_part(const std::string& text);
 /// "?a=1&amp;b=2" for an attribute; empty values are left out; "?" when nothing is left.
 std::string query_html(const std::vector<std::pair<std::string, std::string>>& items);
 std::string link_html(const std::string& href_html, const std::string& words);
+/// Words of people and of the record (a name, a code, a note): never translated, whatever they are.
+std::string verbatim(const std::string& words);
+std::string verbatim_cell(const std::string& words);
+std::string verbatim_link(const std::string& href_html, const std::string& words);
+/// Links at the foot of a page. @param query what its address asks for.
+std::string language_links(const std::map<std::string, std::string>& query);
 
 /// State as colour, shape and word.
 std::string badge(Flag flag);
@@ -96,10 +104,12 @@ std::string text_field(const std::string& id, const std::string& name, const std
 std::string password_field(const std::string& id, const Frame& frame);
 /// "Dr Brandt"; of a word that no account stands behind: "Demo (of the demo)", "Local instructor (no account)".
 std::string author_text(const std::string& printed, const std::string& account_uuid, bool demo);
+std::string author_html(const std::string& printed, const std::string& account_uuid, bool demo);
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,
                        const std::string& value, int rows, const std::string& extra_html = "");
 std::string select_field(const std::string& id, const std::string& name, const std::string& label,
-                         const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen);
+                         const std::vector<std::pair<std::string, std::string>>& choices, const std::string& chosen,
+                         bool choices_verbatim = false);
 
 /// One line of a list of facts (<dl class="facts">). @param mono the words are a hash or the like
 std::string fact(const std::string& name, const std::string& words, bool mono = false);

@@ -14,7 +14,7 @@ std::string programme_list(const ProgrammesView& view) {
     const auto held = std::count_if(view.assignments.begin(), view.assignments.end(), [&](const Assignment& a) {
       return a.programme == one.text.name && a.withdrawn_utc.empty();
     });
-    rows += "<tr><th scope=\"row\">" + link_html(programme_href(one.text.name), one.text.name) + "</th>" +
+    rows += "<tr><th scope=\"row\">" + verbatim_link(programme_href(one.text.name), one.text.name) + "</th>" +
             (one.problem.empty() ? number_cell(std::to_string(one.programme.steps.size()))
                                  : "<td>" + shape("fail") + "cannot be read</td>") +
             number_cell(std::to_string(one.text.version)) + "<td>" + day_html(one.text.utc) + "</td>" +
@@ -41,9 +41,9 @@ std::string assign_form(const ProgrammesView& view, const Frame& frame) {
   for (const KeptProgramme& one : view.programmes) programmes.emplace_back(one.text.name, one.text.name);
   for (const std::string& group : view.groups) groups.emplace_back(group, group);
   return form_begin("/programmes/assign", frame) + "<div class=\"fields\">" +
-         select_field("g-programme", "programme", "Programme", programmes, kept(frame, form, "programme")) +
+         select_field("g-programme", "programme", "Programme", programmes, kept(frame, form, "programme"), true) +
          select_field("g-group", "group", "To the group", groups,
-                      kept(frame, form, "group", view.groups.empty() ? "" : view.groups.front())) +
+                      kept(frame, form, "group", view.groups.empty() ? "" : view.groups.front()), true) +
          text_field("g-trainee", "trainee", "or to one person (code)", kept(frame, form, "trainee"),
                     "maxlength=\"32\" autocomplete=\"off\" autocapitalize=\"none\"") +
          text_field("g-due", "due", "to be done by (may stay empty)", kept(frame, form, "due"),
@@ -56,14 +56,14 @@ std::string assign_form(const ProgrammesView& view, const Frame& frame) {
 }
 
 std::string whom(const Assignment& one) {
-  return one.group.empty() ? link_html("/trainee/" + url_part(one.trainee), one.trainee)
-                           : "group " + link_html("/roster" + query_html({{"group", one.group}}), one.group);
+  return one.group.empty() ? verbatim_link("/trainee/" + url_part(one.trainee), one.trainee)
+                           : "group " + verbatim_link("/roster" + query_html({{"group", one.group}}), one.group);
 }
 
 std::string withdraw_form(const Assignment& one, const Frame& frame) {
   const std::string form = "withdraw-" + one.uuid, words = one.programme + " from " + one.group + one.trainee;
   return std::string("<details") + (frame.refused.form == form ? " open=\"open\"" : "") +
-         "><summary>Withdraw<span class=\"unseen\"> " + escape_html(words) + "</span></summary>" +
+         "><summary>Withdraw<span class=\"unseen\" translate=\"no\"> " + escape_html(words) + "</span></summary>" +
          form_begin("/programmes/withdraw", frame) + "<input type=\"hidden\" name=\"assignment\" value=\"" +
          escape_html(one.uuid) + "\"/>" +
          text_field("w-" + one.uuid, "reason", "Reason (may stay empty)", kept(frame, form, "reason"),
@@ -76,15 +76,15 @@ std::string assigned(const ProgrammesView& view, const Frame& frame) {
   for (const Assignment& one : view.assignments) {
     const std::string begin =
         "<tr><th scope=\"row\">" +
-        link_html("/grid" + query_html({{"programme", one.programme}, {"group", one.group}}), one.programme) +
+        verbatim_link("/grid" + query_html({{"programme", one.programme}, {"group", one.group}}), one.programme) +
         "</th><td>" + whom(one) + "</td><td>" +
         (one.due.empty() ? "<span class=\"dim\">no date</span>" : day_html(one.due)) + "</td><td>" +
-        escape_html(one.printed) + ", " + day_html(one.utc) + "</td>";
+        verbatim(one.printed) + ", " + day_html(one.utc) + "</td>";
     if (one.withdrawn_utc.empty())
       held += begin + "<td>" + withdraw_form(one, frame) + "</td></tr>";
     else
-      gone += begin + "<td>" + escape_html(one.withdrawn_by) + ", " + day_html(one.withdrawn_utc) +
-              (one.withdrawn_reason.empty() ? "" : ": " + escape_html(one.withdrawn_reason)) + "</td></tr>";
+      gone += begin + "<td>" + verbatim(one.withdrawn_by) + ", " + day_html(one.withdrawn_utc) +
+              (one.withdrawn_reason.empty() ? "" : ": " + verbatim(one.withdrawn_reason)) + "</td></tr>";
   }
   const auto listed = [](const char* caption, const char* last, const std::string& rows) {
     return table(caption, head_cells({"Programme", "To", "By", "Given", last}), rows);
@@ -186,8 +186,9 @@ std::string programmes_page(const ProgrammesView& view, Frame frame) {
 
 std::string programme_page(const ProgrammeView& view, Frame frame) {
   frame.title = view.name;
+  frame.title_verbatim = true;
   return document(frame,
-                  "<div class=\"title\"><h1>" + escape_html(view.name) + "</h1><p class=\"dim\">" +
+                  "<div class=\"title\"><h1>" + verbatim(view.name) + "</h1><p class=\"dim\">" +
                       (view.version == 0 ? std::string("a new programme, not saved yet")
                                          : "version " + std::to_string(view.version)) +
                       "</p><p class=\"files\">" + link_html("/programmes", "Programmes") +

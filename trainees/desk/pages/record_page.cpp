@@ -159,7 +159,7 @@ std::string audit_page(const AuditView& view, Frame frame) {
             (entry.before_utc.empty()
                  ? ""
                  : " <span class=\"tag\">clock set back from " + date_html(entry.before_utc) + "</span>") +
-            "</td>" + cell(entry.who) + cell(entry.action) + subject_cell(entry) + "<td class=\"mono\">" +
+            "</td>" + verbatim_cell(entry.who) + cell(entry.action) + subject_cell(entry) + "<td class=\"mono\">" +
             escape_html(entry.detail.size() > 40 ? entry.detail.substr(0, 16) + "\xE2\x80\xA6" : entry.detail) +
             "</td></tr>";
   }
@@ -181,7 +181,7 @@ std::string retention_page(const RetentionView& view, Frame frame) {
   frame.title = "Retention";
   std::string rows;
   for (const RetentionLine& line : view.lines)
-    rows += "<tr><th scope=\"row\">" + link_html("/trainee/" + url_part(line.code), line.code) + "</th>" +
+    rows += "<tr><th scope=\"row\">" + verbatim_link("/trainee/" + url_part(line.code), line.code) + "</th>" +
             number_cell(std::to_string(line.attempts)) + "<td>" +
             (line.last_utc.empty() ? "never" : day_html(line.last_utc)) + "</td><td>" + day_html(line.created_utc) +
             "</td></tr>";

@@ -17,7 +17,7 @@ std::vector<Choice> group_choices(const std::string& all, const std::vector<std:
 
 std::string roster_filters(const RosterView& view) {
   return "<form class=\"filters\" method=\"get\" action=\"/roster\">" +
-         select_field("f-group", "group", "Group", group_choices("all groups", view.groups), view.group) +
+         select_field("f-group", "group", "Group", group_choices("all groups", view.groups), view.group, true) +
          select_field("f-who", "who", "Who", {{"active", "active"}, {"deactivated", "deactivated"}, {"all", "both"}},
                       view.who) +
          "<p class=\"field\"><button>Show</button></p></form>";
@@ -27,14 +27,14 @@ std::string roster_row(const RosterEntry& one, int number) {
   const std::string id = "p-" + std::to_string(number), code = escape_html(one.code);
   std::string groups;
   for (const std::string& group : one.groups)
-    groups += (groups.empty() ? "" : ", ") + link_html("/roster" + query_html({{"group", group}}), group);
+    groups += (groups.empty() ? "" : ", ") + verbatim_link("/roster" + query_html({{"group", group}}), group);
   return "<tr><td class=\"tick\"><input type=\"checkbox\" id=\"" + id + "\" name=\"p:" + code +
-         "\" value=\"yes\"/><label class=\"unseen\" for=\"" + id + "\">" + code + "</label></td><th scope=\"row\">" +
-         link_html("/trainee/" + url_part(one.code), shown_person(one)) +
-         (one.name.empty() ? "" : " <small class=\"dim\">" + code + "</small>") + "</th><td>" + groups + "</td>" +
-         number_cell(std::to_string(one.attempts)) + "<td>" +
+         "\" value=\"yes\"/><label class=\"unseen\" translate=\"no\" for=\"" + id + "\">" + code +
+         "</label></td><th scope=\"row\">" + verbatim_link("/trainee/" + url_part(one.code), shown_person(one)) +
+         (one.name.empty() ? "" : " <small class=\"dim\" translate=\"no\">" + code + "</small>") + "</th><td>" +
+         groups + "</td>" + number_cell(std::to_string(one.attempts)) + "<td>" +
          (one.last_utc.empty() ? "<span class=\"dim\">never</span>" : day_html(one.last_utc)) + "</td><td>" +
-         (one.login.empty() ? "<span class=\"dim\">none</span>" : escape_html(one.login)) + "</td><td>" +
+         (one.login.empty() ? "<span class=\"dim\">none</span>" : verbatim(one.login)) + "</td><td>" +
          shape(one.active ? "pass" : "void") + (one.active ? "active" : "deactivated") + "</td><td>" +
          link_html("/roster/person" + query_html({{"code", one.code}}), "Change") + "</td></tr>";
 }
@@ -122,7 +122,7 @@ std::string roster_page(const RosterView& view, Frame frame) {
   frame.title = "Roster";
   const std::vector<std::pair<std::string, std::string>> asked = {{"group", view.group}, {"who", view.who}};
   return document(frame, "<div class=\"title\"><h1>Roster</h1><p class=\"dim\">" +
-                             std::string(view.group.empty() ? "everybody" : "group " + escape_html(view.group)) +
+                             std::string(view.group.empty() ? "everybody" : "group " + verbatim(view.group)) +
                              (view.deactivated == 0 ? "" : ", " + std::to_string(view.deactivated) + " deactivated") +
                              "</p><p class=\"files\">" + link_html("/roster.csv" + query_html(asked), "CSV") +
                              "</p></div>" + section("people", "People", roster_list(view, frame)) +
@@ -132,6 +132,7 @@ std::string roster_page(const RosterView& view, Frame frame) {
 std::string person_page(const PersonView& view, Frame frame) {
   const RosterEntry& one = view.person;
   frame.title = shown_person(one);
+  frame.title_verbatim = true;
   const std::string form = "person";
   std::string groups;
   for (const std::string& group : one.groups) groups += (groups.empty() ? "" : ", ") + group;
@@ -139,12 +140,12 @@ std::string person_page(const PersonView& view, Frame frame) {
   const std::string told = standing.utc.empty()
                                ? ""
                                : "<p>" + std::string(standing.active ? "Reactivated " : "Deactivated ") +
-                                     day_html(standing.utc) + " by " + escape_html(standing.printed) +
-                                     (standing.reason.empty() ? "" : ": " + escape_html(standing.reason)) + ".</p>";
+                                     day_html(standing.utc) + " by " + verbatim(standing.printed) +
+                                     (standing.reason.empty() ? "" : ": " + verbatim(standing.reason)) + ".</p>";
   return document(
       frame,
-      "<div class=\"title\"><h1>" + escape_html(shown_person(one)) + "</h1><p class=\"dim\">" + escape_html(one.code) +
-          (groups.empty() ? "" : ", " + escape_html(groups)) + "</p><p class=\"files\">" +
+      "<div class=\"title\"><h1>" + verbatim(shown_person(one)) + "</h1><p class=\"dim\">" + verbatim(one.code) +
+          (groups.empty() ? "" : ", " + verbatim(groups)) + "</p><p class=\"files\">" +
           link_html("/trainee/" + url_part(one.code), "Attempts") + link_html("/roster", "Roster") + "</p></div>" +
           section("change", "Name and address",
                   form_begin("/roster/person" + query_html({{"code", one.code}}), frame) + "<div class=\"fields\">" +

@@ -68,7 +68,7 @@ std::string device_words(const LiveMoment& now) {
 
 std::string who(const LiveMoment& now) {
   return now.trainee.empty() ? std::string("Nobody signed in")
-                             : link_html("/trainee/" + url_part(now.trainee), now.trainee);
+                             : verbatim_link("/trainee/" + url_part(now.trainee), now.trainee);
 }
 
 std::string clock(const LiveMoment& now) {
@@ -109,7 +109,7 @@ std::string message_link(const LiveStation& station) {
   if (station.state == State::kEnded || code.empty() || !station.told.moment.hears) return "";
   return "<p>" +
          ("<a class=\"button\" href=\"/station/message" + query_html({{"trainee", code}}) + "\">Write to " +
-          escape_html(code) + "</a>") +
+          verbatim(code) + "</a>") +
          "</p>";
 }
 
@@ -162,9 +162,10 @@ std::string station_page(const LiveStations& view, Frame frame) {
 std::string station_message_page(const std::string& trainee, const std::string& now, const std::string& problem,
                                  const std::string& text, Frame frame) {
   frame.title = "Write to " + trainee;
+  frame.title_verbatim = true;
   const std::string most = std::to_string(AssessmentStore::kLongestMessage);
   return document(
-      frame, "<div class=\"title\"><h1>Write to " + escape_html(trainee) + "</h1><p class=\"dim\">" + escape_html(now) +
+      frame, "<div class=\"title\"><h1>Write to " + verbatim(trainee) + "</h1><p class=\"dim\">" + escape_html(now) +
                  "</p></div>" +
                  section("message", "Message",
                          (problem.empty() ? "" : "<p class=\"error\">" + escape_html(problem) + "</p>") +

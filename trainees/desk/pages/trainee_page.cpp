@@ -120,7 +120,7 @@ std::string result_cell(const ListedAttempt& one) {
   const CurvePoint& p = *one.point;
   if (one.place == 0) return shape("void") + "ended by the device: not counted, passes in a row begin anew";
   const std::string verdict = shape(p.passed ? "pass" : "fail") + (p.passed ? "passed" : "not passed");
-  if (!p.decided_by.empty()) return verdict + " by decision of " + escape_html(p.decided_by);
+  if (!p.decided_by.empty()) return verdict + " by decision of " + verbatim(p.decided_by);
   return p.score ? verdict : shape("void") + "no score";
 }
 
@@ -193,15 +193,15 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" +
            shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
            (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " +
-           escape_html(author_text(c.printed, c.author, frame.demo)) + ", rules " + escape_html(c.rule_version) +
-           "</p><p><small>" + escape_html(evidence_text(c.evidence)) + "</small></p>";
+           author_html(c.printed, c.author, frame.demo) + ", rules " + escape_html(c.rule_version) + "</p><p><small>" +
+           escape_html(evidence_text(c.evidence)) + "</small></p>";
     if (const auto shaken = view.shaken.find(c.uuid); shaken != view.shaken.end())
       out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(shaken->second) +
              ". Look, and withdraw it if it must not stand.</p>";
     if (frame.pdf)
       out += "<p class=\"files\">" +
              link_html("/report/certificate/" + url_part(c.uuid) + ".pdf", "Certificate as PDF") + "</p>";
-    if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + escape_html(c.revoked_reason) + "</p>";
+    if (!held) out += "<p>Withdrawn " + day_html(c.revoked_utc) + ": " + verbatim(c.revoked_reason) + "</p>";
     if (held && frame.may_write && frame.no_signature.empty())
       out += std::string("<details") + (frame.refused.form == "revoke-" + c.uuid ? " open=\"open\"" : "") +
              "><summary>Withdraw</summary>" + form_begin("/certificate/" + url_part(c.uuid) + "/revoke", frame) +
@@ -234,12 +234,11 @@ std::string title(const TraineeView& view, const Frame& frame) {
   std::string groups;
   for (const std::string& group : view.groups)
     groups += (groups.empty() ? "" : ", ") +
-              (frame.own_code.empty() ? link_html("/" + query_html({{"group", group}}), group) : escape_html(group));
-  return "<div class=\"title\"><h1>" + escape_html(view.name.empty() ? view.code : view.name) +
-         "</h1><p class=\"dim\">" + (view.name.empty() ? "" : escape_html(view.code) + ", ") +
-         (groups.empty() ? "in no group" : "group " + groups) + ", rules " +
-         escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) + "</p><p class=\"files\">" +
-         link_html(path + "/attempts.csv", "CSV") +
+              (frame.own_code.empty() ? verbatim_link("/" + query_html({{"group", group}}), group) : verbatim(group));
+  return "<div class=\"title\"><h1>" + verbatim(view.name.empty() ? view.code : view.name) + "</h1><p class=\"dim\">" +
+         (view.name.empty() ? "" : verbatim(view.code) + ", ") + (groups.empty() ? "in no group" : "group " + groups) +
+         ", rules " + escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) +
+         "</p><p class=\"files\">" + link_html(path + "/attempts.csv", "CSV") +
          (frame.pdf ? " " + link_html("/report/trainee/" + url_part(view.code) + ".pdf", "PDF") : "") + "</p></div>";
 }
 
@@ -257,7 +256,7 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
   out += "<ol class=\"notes\">";
   for (const Note& note : notes) {
     out += "<li><p class=\"said\">" + escape_html(note.text) + "</p><p class=\"dim\">" +
-           escape_html(note.printed.empty() ? note.author : note.printed) + ", " + date_html(note.utc);
+           verbatim(note.printed.empty() ? note.author : note.printed) + ", " + date_html(note.utc);
     if (!note.attempt_uuid.empty()) out += ", on " + link_html("/attempt/" + url_part(note.attempt_uuid), "an attempt");
     out += (note.seen_utc.empty() ? ", not met yet" : ", met " + date_html(note.seen_utc)) + "</p></li>";
   }
@@ -287,6 +286,7 @@ AttemptsPage attempts_page(const TraineeView& view) {
 
 std::string trainee_page(const TraineeView& view, Frame frame) {
   frame.title = view.name.empty() ? view.code : view.name;
+  frame.title_verbatim = true;
   std::string out = title(view, frame) + section("exercises", "Exercises", view.erased ? kErased : grid(view));
   if (view.chosen < view.curves.size()) {
     const CurveView& curve = view.curves[view.chosen];

@@ -72,10 +72,11 @@ std::vector<Choice> all_and(const std::string& all, const std::vector<std::strin
 std::string filters(const WhyView& view) {
   std::vector<Choice> exercises = {{"", "all exercises"}};
   exercises.insert(exercises.end(), view.exercises.begin(), view.exercises.end());
-  std::string out = "<form class=\"filters\" method=\"get\" action=\"/why\">" +
-                    select_field("f-group", "group", "Group", all_and("all groups", view.groups), view.asked.group) +
-                    select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
-                    select_field("f-level", "level", "Level", all_and("all levels", view.levels), view.asked.level);
+  std::string out =
+      "<form class=\"filters\" method=\"get\" action=\"/why\">" +
+      select_field("f-group", "group", "Group", all_and("all groups", view.groups), view.asked.group, true) +
+      select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
+      select_field("f-level", "level", "Level", all_and("all levels", view.levels), view.asked.level);
   if (!view.metrics.empty())
     out += select_field("f-metric", "metric", "Measure drawn", metric_choices(view.metrics), view.metric);
   return out + "<p class=\"field\"><button>Show</button> " + link_html("/why", "Reset") + "</p></form>";
@@ -127,7 +128,7 @@ std::string why_page(const WhyView& view, Frame frame) {
           ? "<p class=\"dim\">Choose an exercise and a level to draw a measure over the attempts.</p>"
           : "";
   return document(frame, "<div class=\"title\"><h1>Why attempts fail</h1><p class=\"dim\">" +
-                             escape_html(view.asked.group.empty() ? "everybody" : "group " + view.asked.group) +
+                             (view.asked.group.empty() ? "everybody" : "group " + verbatim(view.asked.group)) +
                              ", the newest " + std::to_string(kRowsForLosses) + " attempts of each person</p></div>" +
                              section("losses", "Where the points go", filters(view) + drawn + loss_tables(view.lines)));
 }

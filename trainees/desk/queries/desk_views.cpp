@@ -205,6 +205,7 @@ Frame frame_of(const Request& request, const Desk& desk) {
   if (request.account && request.account->role == Role::kTrainee) frame.own_code = request.account->trainee_code;
   frame.token = request.token;
   frame.now_utc = request.now_utc;
+  frame.query = request.query;
   frame.demo = desk.demo;
   frame.may_write = is_staff(request);
   frame.pdf = true;

@@ -98,6 +98,35 @@ void DeskGate::open_session(RequestContext& context) {
   context.request.account = local_instructor();
 }
 
+/// Any page with ?lang=de: a cookie that the browser keeps for a year, and back to the page. No form is needed, since
+/// nothing of the record depends on it.
+std::optional<Answer> DeskGate::choose_language(RequestContext& context) const {
+  constexpr std::string_view kName = "lang=";
+  const RequestHead& head = context.incoming.head;
+  std::string language, others;
+  for (std::size_t from = 0; from < head.query.size();) {
+    const std::size_t to = std::min(head.query.find('&', from), head.query.size());
+    const std::string one = head.query.substr(from, to - from);
+    from = to + 1;
+    if (one.starts_with(kName))
+      language = one.substr(kName.size());
+    else
+      others += (others.empty() ? "?" : "&") + one;
+  }
+  if (language.empty() || context.posts()) return {};
+  if (!desk_tongue(language)) return refused(400, "The desk has no such language.");
+  context.cookie = "lang=" + language + "; Path=/; HttpOnly; SameSite=Strict; Max-Age=31536000" +
+                   (options_.secure ? "; Secure" : "");
+  const bool page = head.path == "/sign-in" || table_.find("GET", head.path).route != nullptr;
+  return Answer{.response = {.status = 303, .location = page ? head.path + others : "/"}};
+}
+
+const PageLanguage* DeskGate::language_of(const IncomingRequest& incoming) const {
+  if (!options_.languages) return nullptr;
+  return options_.languages->chosen(cookie_value(incoming.head.header("cookie"), "lang"),
+                                    incoming.head.header("accept-language"));
+}
+
 std::optional<Answer> DeskGate::refuse_audience(RequestContext& context) const {
   const Audience audience = context.found.route->audience;
   if (audience == Audience::kEverybody) return {};
@@ -198,6 +227,7 @@ Answer DeskGate::answered(RequestContext& context) {
     out.allow = "GET, HEAD, POST";
     return out;
   }
+  if (const auto chosen = choose_language(context)) return *chosen;
   if (head.path == "/sign-in") return sign_in(context);
   if (head.path == "/sign-out") return sign_out(context);
   context.found = table_.find(head.method, head.path);
@@ -251,6 +281,10 @@ Answer DeskGate::answer(const IncomingRequest& incoming, Desk& desk) {
     out = refused(500);
   }
   out.cookie = context.cookie;
+  Response& made = out.response;
+  if (const PageLanguage* language = language_of(incoming);
+      language != nullptr && made.type.starts_with("text/html") && made.download.empty())
+    made.body = language->page(made.body);
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "trainees/desk/server/desk_sessions.h"
 #include "trainees/desk/server/request_head.h"
 #include "trainees/desk/server/sign_in_limit.h"
+#include "trainees/desk/words/page_language.h"
 
 namespace trocar::review {
 
@@ -28,6 +29,7 @@ struct GateOptions {
   std::function<void(const std::string&)> log = {};  ///< one line; any thread
   std::function<DeskTime()> clock = std::chrono::steady_clock::now;
   SessionLimits sessions = {};
+  std::shared_ptr<const PageLanguages> languages = {};  ///< without them every page is English
 };
 
 /// A request as it came, whole.
@@ -60,6 +62,8 @@ class DeskGate {
  private:
   struct RequestContext;
   Answer answered(RequestContext& context);
+  std::optional<Answer> choose_language(RequestContext& context) const;
+  const PageLanguage* language_of(const IncomingRequest& incoming) const;
   bool known_host(const IncomingRequest& incoming) const;
   void open_session(RequestContext& context);
   std::optional<Answer> refuse_audience(RequestContext& context) const;

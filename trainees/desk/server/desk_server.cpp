@@ -96,7 +96,8 @@ DeskServer::Impl::Impl(DeskServerOptions given) : options(std::move(given)) {
                     .cookie = "trocar_desk_" + std::to_string(bound_port),
                     .port = bound_port,
                     .log = options.log,
-                    .sessions = options.sessions};
+                    .sessions = options.sessions,
+                    .languages = options.languages};
   gated.hosts = options.names;
   if (tls) {
     const std::vector<std::string> named = tls->names();

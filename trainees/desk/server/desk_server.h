@@ -30,6 +30,7 @@ struct DeskServerOptions {
   int page_threads = 4;
   RequestLimits limits = {};
   SessionLimits sessions = {};
+  std::shared_ptr<const PageLanguages> languages = {};  ///< besides English
   std::function<void(const std::string&)> log = {};
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
+#include "trainees/desk/words/page_language.h"
 
 namespace trocar::review {
 namespace {
@@ -138,7 +139,7 @@ CheckedPage check_page(const std::string& html, const std::string& token) {
   CheckedPage page;
   if (!html.starts_with("<!DOCTYPE html>\n")) page.problems.push_back("no doctype");
   if (const std::string problem = parse(html, reader); !problem.empty()) page.problems.push_back(problem);
-  if (!reader.elements.empty() && reader.elements[0].of("lang") != "en") page.problems.push_back("no language");
+  if (!reader.elements.empty() && !desk_tongue(reader.elements[0].of("lang"))) page.problems.push_back("no language");
   for (const PageElement& e : reader.elements) check_element(e, page.problems);
   check_labels(reader, page.problems);
   check_tables_and_forms(reader, token, page.problems);
