@@ -93,11 +93,12 @@ ProgrammeStep read_step(const toml::table& table, const std::string& name) {
   step.sign_off = reader.flag("sign_off");
   step.due_days = reader.count("due_days", 0, kLongestDue);
   step.input = reader.word("input", false);
-  if (!step.input.empty() && std::find(std::begin(kPersonsInputs), std::end(kPersonsInputs), step.input) ==
-                                 std::end(kPersonsInputs))
+  if (!step.input.empty() &&
+      std::find(std::begin(kPersonsInputs), std::end(kPersonsInputs), step.input) == std::end(kPersonsInputs))
     throw step_error(name, table.source(),
-                     "input '" + step.input + "' is none that a person holds: mouse, keyboard, gamepad, spacemouse, "
-                     "device");
+                     "input '" + step.input +
+                         "' is none that a person holds: mouse, keyboard, gamepad, spacemouse, "
+                         "device");
   reader.finish();
   if (step.days > step.passes)
     throw step_error(name, table.source(), "'days' must not exceed 'passes': a pass is on one day");
@@ -267,8 +268,7 @@ StepState state_of(const ProgrammeStep& step, const StepProgress& progress, bool
 
 std::int64_t end_of_day(const std::string& day) {
   const auto begin = day.size() == 10 ? seconds_of_utc(day + "T00:00:00Z") : std::nullopt;
-  if (!begin || day < "2000")
-    throw InputError("deadline \"" + day + "\": give a day such as 2026-06-30");
+  if (!begin || day < "2000") throw InputError("deadline \"" + day + "\": give a day such as 2026-06-30");
   return *begin + kSecondsADay;
 }
 

@@ -83,6 +83,7 @@ TEST(Programme, FaultsAreSaidWithTheirPlace) {
            {one + "passes = 0\n", "mine:4:10:", "from 1 to 100"},
            {one + "passes = 2.5\n", "mine:4:10:", "whole number"},
            {one + "days = 2\n", "mine:1:", "must not exceed"},
+           {one + "input = \"expert\"\n", "mine:1:1:", "none that a person holds"},
            {one + "sign_off = 1\n", "mine:4:12:", "true or false"},
            {one + "due_days = 4000\n", "mine:4:12:", "from 1 to 3660"},
            {one + "pases = 2\n", "mine:4:1:", "unknown key 'pases' in [[step]]: known are exercise"},

@@ -112,6 +112,11 @@ TEST_F(PeopleImport, FilesThatAreNoListAreRefusedWithTheirPlace) {
         << csv << message_of<InputError>([&, text = csv] { preview(text); });
 }
 
+TEST_F(PeopleImport, CodesThatTheProgramGivesAreNobodys) {
+  for (const char* code : {"guest", "Demonstration", "unnamed-1", "erased-2"})
+    EXPECT_THROW(add_person(database_, {0, code, "", "", ""}, kAuthor), InputError) << code;
+}
+
 TEST_F(PeopleImport, OneIsAddedAndNotTwice) {
   add_person(database_, {0, "A-1", "Ada", "ada@example.org", "2026 A"}, kAuthor);
   EXPECT_EQ(TraineeStore(database_).find("A-1")->email, "ada@example.org");

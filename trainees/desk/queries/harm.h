@@ -35,8 +35,8 @@ struct Harm {
 /// Fills events and gates. @param attempts rows of the window.
 void read_harm(sqlite3* connection, const std::vector<std::int64_t>& attempts, Harm& harm);
 
-/// Worse first: critical events, then how far over the limit (under it, or where none is known, nothing), then the number of events, then unsafe attempts, then how
-/// many more they are than before.
+/// Worse first: critical events, then how far over the limit (under it, or where none is known, nothing), then the
+/// number of events, then unsafe attempts, then how many more they are than before.
 bool worse(const Harm& a, const Harm& b);
 
 /// "5 of the last 5 attempts were unsafe (4 of the 4 before: no better): peak force 3.0 N, 2.0 times the limit of 1.5

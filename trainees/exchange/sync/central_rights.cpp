@@ -115,6 +115,10 @@ std::string quoted_columns(const CarriedTable& table) {
 
 std::string both(const std::string& one, const std::string& other) { return one + " AND (" + other + ")"; }
 
+// Versions go on from what is there: one far beyond would leave no number to anybody's next one.
+constexpr const char* kNextVersion =
+    "version <= 1000 + coalesce((SELECT max(c.version) FROM trocar.curriculum c WHERE c.name = curriculum.name), 0)";
+
 std::vector<Policy> policies() {
   const std::string all = "(SELECT trocar.may_all())", own = kOwnStation;
   std::vector<Policy> out;
@@ -132,7 +136,8 @@ std::vector<Policy> policies() {
   }
   for (const CarriedTable& table : carried_sealed()) {
     out.push_back(
-        {table.name, quoted_columns(table), both(own, may_bring(table.name)),
+        {table.name, quoted_columns(table),
+         both(own, table.name == "curriculum" ? kNextVersion : may_bring(table.name)),
          table.name == "consent" ? all + " OR trainee_uuid IN (SELECT p.uuid FROM trocar.own_person p)" : "true"});
   }
   out.push_back({"person", "", "false", all + " OR " + own});
@@ -178,10 +183,6 @@ std::string may_bring(const std::string& table) {
       {"consent", kOfPerson},           {"note", kOfPerson},           {"certificate", kOfPerson},
       {"erasure", kOfPerson},           {"rating", kOfAttempt},        {"signature", kOfAttempt},
       {"verdict_override", kOfAttempt}, {"revocation", kOfCertificate}};
-  // Versions go on from what is there: one far beyond would leave no number to anybody's next one.
-  if (table == "curriculum")
-    return "version <= 1000 + coalesce((SELECT max(c.version) FROM trocar.curriculum c WHERE c.name ="
-           " curriculum.name), 0)";
   const auto about = kAbout.find(table);
   return about == kAbout.end() ? "true" : "(SELECT trocar.may_all()) OR " + about->second;
 }

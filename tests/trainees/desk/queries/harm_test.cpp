@@ -28,6 +28,9 @@ TEST(Harm, IsOrderedByKindThenForceThenNumberThenTrend) {
       EXPECT_EQ(worse(falling[i], falling[j]), i < j) << i << " " << j;
   }
   EXPECT_TRUE(worse(of(0, 4, 9, 4, 1), of(0, 4, 9, 4, 2))) << "was better before";
+  Harm unknown = of(0, 1.8, 28, 2, 2);
+  unknown.limit_n = 0;
+  EXPECT_TRUE(worse(unknown, of(0, 1.6, 1, 2, 2))) << "under the limit the number of events decides";
 }
 
 TEST(Harm, SaysHowMuchOfWhat) {

@@ -93,6 +93,17 @@ TEST_F(ProgrammeQuery, StatesFollowAttemptsDecisionsAndCertificates) {
   EXPECT_EQ(due_day(*cell.due_s), "2029-12-31");
 }
 
+TEST_F(ProgrammeQuery, ACertificateInQuestionIsNoneUntilSomebodyHasLooked) {
+  const Author ida{"0192-account", "Ida Adler"};
+  store_.assign("Basics", "T-1", "", "", kAuthor);
+  const std::string passed = attempt("T-1", "L2", 90, "2026-03-04");
+  AssessmentStore assessments(database_);
+  assessments.certify("T-1", "surface-touch", "L2", "1", R"({"attempts": [")" + passed + R"("]})", ida);
+  ASSERT_EQ(said(), "T-1 not-started certified");
+  assessments.override_verdict(passed, false, "the camera was knocked", ida);
+  EXPECT_EQ(said(), "T-1 not-started learning") << "as the cohort says";
+}
+
 TEST_F(ProgrammeQuery, WhatAScriptedHandDidIsNobodysPass) {
   store_.assign("Basics", "T-1", "", "", kAuthor);
   for (const char* day : {"2026-03-01", "2026-03-02"}) attempt("T-1", "L1", 100, day, "expert");

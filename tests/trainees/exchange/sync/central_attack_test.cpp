@@ -136,6 +136,17 @@ TEST_F(CentralAttack, NothingIsChangedTakenAwayOrWrittenInAnothersName) {
            "INSERT INTO erasure (uuid, trainee_uuid, kind, digest, station) VALUES ('x', 'TRAINEE', 'training', '',"
            " 'OWN')",
            "INSERT INTO person_link (one, other, linked, author, utc) VALUES ('a', 'b', true, 'me', '')",
+           // attempts of another's person, their notes as met, rows that no program writes, versions without end
+           "INSERT INTO attempt (uuid, trainee_uuid, station) VALUES ('01890000-0000-7000-8000-000000000000',"
+           " 'TRAINEE', 'OWN')",
+           "INSERT INTO attempt (uuid, trainee_uuid, station) SELECT 'zz', uuid, 'OWN' FROM trainee WHERE station ="
+           " 'OWN' LIMIT 1",
+           "INSERT INTO note_seen (note_uuid, utc, station) VALUES ('x', '2026-01-01T00:00:00.000Z', 'OWN')",
+           "INSERT INTO note_seen (note_uuid, utc, station) SELECT uuid, '2026-01-01T00:00:00.000Z', 'OWN' FROM note"
+           " WHERE trainee_uuid = 'TRAINEE' UNION SELECT 'y', '', 'OWN'",
+           "INSERT INTO trainee (uuid, created_utc, station) VALUES ('zz', 'x', 'OWN')",
+           "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc, digest, station) VALUES ('x',"
+           " 'standard', 2147483647, '', '', '', '', '', 'OWN')",
            "INSERT INTO person (trainee_uuid, code, station) VALUES ('x', 'x', 'OWN')",
            "INSERT INTO recording (sha256, attempt_uuid, bytes, chunks, station) VALUES ('x', 'ATTEMPT', 1, 1, 'OWN')",
            "INSERT INTO recording_chunk (sha256, position, data) VALUES ('x', 0, 'x')",
