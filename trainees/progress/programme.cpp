@@ -201,6 +201,18 @@ std::string programme_toml(const Programme& programme) {
   return out;
 }
 
+void require_known(const Programme& programme, const std::string& name, const KnownLevels& known) {
+  for (std::size_t i = 0; i < programme.steps.size(); ++i) {
+    const ProgrammeStep& step = programme.steps[i];
+    const std::string place = "programme \"" + name + "\", step " + std::to_string(i + 1) + ": ";
+    const auto exercise = known.find(step.exercise_id);
+    if (exercise == known.end()) throw InputError(place + "there is no exercise \"" + step.exercise_id + "\"");
+    const auto& levels = exercise->second;
+    if (!levels.empty() && std::find(levels.begin(), levels.end(), step.level) == levels.end())
+      throw InputError(place + step.exercise_id + " has no level \"" + step.level + "\"");
+  }
+}
+
 bool is_programme(const std::string& toml) {
   try {
     return parsed_programme(toml, "").contains("step");

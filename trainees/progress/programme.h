@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ struct Programme {
 Programme read_programme(const std::string& toml, const std::string& name);
 /// The same back; what has its default is left out.
 std::string programme_toml(const Programme& programme);
+/// Levels of each exercise that there is; none of an exercise: any.
+using KnownLevels = std::map<std::string, std::vector<std::string>>;
+/// @throws InputError naming the step: an exercise or a level that there is not.
+void require_known(const Programme& programme, const std::string& name, const KnownLevels& known);
 /// Whether a text has steps, readable or not: it is a programme's and no rules of progress.
 bool is_programme(const std::string& toml);
 

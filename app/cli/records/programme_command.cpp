@@ -8,6 +8,8 @@
 #include "app/cli/command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/text_table.h"
+#include "app/desk/desk_facts.h"
+#include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
 #include "trainees/desk/queries/programme_views.h"
@@ -60,8 +62,9 @@ int programme_show(const ProgrammeOptions& options, std::ostream& out, std::ostr
 
 int programme_save(const ProgrammeOptions& options, std::ostream& out, std::ostream& err) {
   const std::string toml = read_text_file(options.text.string());
-  read_programme(toml, options.text.string());  // so that a fault is said of the file
+  const Programme programme = read_programme(toml, options.text.string());  // so that a fault is said of the file
   Database database = open_database(options.database, OpenMode::kCreate, err);
+  require_known(programme, options.name, review::known_levels(database, desk_exercises(find_assets().exercises)));
   const Curriculum saved = ProgrammeStore(database).save(options.name, toml, author_said(options.author));
   out << saved.name << " version " << saved.version << '\n';
   return 0;

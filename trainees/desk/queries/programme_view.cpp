@@ -82,6 +82,13 @@ ProgrammesView programmes_view(Desk& desk) {
   return {store.list(), store.assignments(), CurriculumStore(desk.database).groups()};
 }
 
+KnownLevels known_levels(Database& database, const std::vector<ExerciseLevels>& shipped) {
+  KnownLevels out;
+  for (const Choice& tried : exercise_choices(database)) out[tried.first] = {};
+  for (const ExerciseLevels& one : shipped) out[one.id] = one.levels;
+  return out;
+}
+
 ProgrammeView programme_view(Desk& desk, const std::string& name) {
   ProgrammeView view;
   view.name = name;

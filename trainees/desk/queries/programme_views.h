@@ -30,6 +30,9 @@ struct StepDraft {
   bool in_a_row = false, sign_off = false;
 };
 
+/// What the program ships, and what was tried here. @param shipped may be empty: then only that.
+KnownLevels known_levels(Database& database, const std::vector<ExerciseLevels>& shipped);
+
 struct ProgrammeView {
   std::string name = {};
   int version = 0;  ///< 0: not saved yet

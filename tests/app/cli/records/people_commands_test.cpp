@@ -101,6 +101,14 @@ TEST_F(PeopleCommands, AProgrammeIsSavedAssignedAndAskedFor) {
   programme_show(options, out_, err_);
   EXPECT_EQ(said(), toml);
   options.text = written("bad.toml", toml + "x = 1\n");
+  for (const auto& [from, to, words] : {std::tuple{"surface-touch", "nothing-here", "step 1: there is no exercise"},
+                                        {"\"L1\"", "\"L99\"", "step 1: surface-touch has no level"}}) {
+    std::string other = toml;
+    ProgrammeOptions wrong = options;
+    wrong.text = written("other.toml", other.replace(other.find(from), std::string(from).size(), to));
+    const std::string complaint = message_of<InputError>([&] { programme_save(wrong, out_, err_); });
+    EXPECT_NE(complaint.find(words), std::string::npos) << complaint;
+  }
   EXPECT_NE(message_of<InputError>([&] { programme_save(options, out_, err_); }).find("bad.toml:6:1:"),
             std::string::npos);
   options.group = "2026 A";
