@@ -6,6 +6,7 @@
 #include "app/cli/records/people_command.h"
 #include "app/cli/records/programme_command.h"
 #include "app/cli/records/trainee_command.h"
+#include "app/cli/text_table.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/records/programmes.h"
 #include "trainees/records/trainee_store.h"
@@ -28,6 +29,16 @@ class PeopleCommands : public TemporaryFolder {
   const std::filesystem::path file_ = folder_ / "t.db";
   std::ostringstream out_, err_;
 };
+
+TEST(TextTable, NothingInACellSteersTheTerminal) {
+  TextTable table({{"code"}, {"name"}});
+  table.add({"A-1",
+             "J\xC3\xBCrgen\x1B[2J\n\xC2\x9B"
+             "31m\x7F"});
+  std::ostringstream out;
+  table.print(out);
+  EXPECT_EQ(out.str(), "code  name\nA-1   J\xC3\xBCrgen?[2J???31m?\n");
+}
 
 TEST_F(PeopleCommands, AListIsLookedAtAndTaken) {
   PeopleOptions options;
