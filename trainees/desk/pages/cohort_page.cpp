@@ -78,12 +78,6 @@ std::string card(const CohortView& view, const CardWords& words) {
          "</p></section>";
 }
 
-std::vector<Choice> choices(const std::string& all, const std::vector<std::string>& values) {
-  std::vector<Choice> out = {{"", all}};
-  for (const std::string& value : values) out.emplace_back(value, value);
-  return out;
-}
-
 std::string filters(const CohortView& view) {
   std::vector<Choice> exercises = {{"", "all exercises"}};
   exercises.insert(exercises.end(), view.exercises.begin(), view.exercises.end());
@@ -92,9 +86,9 @@ std::string filters(const CohortView& view) {
       {"stuck", "stuck"}, {"integrity", "check record"}, {"plateau", "plateau"},   {"retention-due", "retention due"},
       {"ready", "ready"}, {"certified", "certified"},    {"learning", "learning"}, {"not-started", "not started"}};
   return "<form class=\"filters\" method=\"get\" action=\"/\">" +
-         select_field("f-group", "group", "Group", choices("all groups", view.groups), view.asked.group, true) +
+         select_field("f-group", "group", "Group", all_or_one("all groups", view.groups), view.asked.group, true) +
          select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
-         select_field("f-level", "level", "Level", choices("all levels", view.levels), view.asked.level) +
+         select_field("f-level", "level", "Level", all_or_one("all levels", view.levels), view.asked.level) +
          select_field("f-state", "state", "State", states, view.asked.state) +
          "<input type=\"hidden\" name=\"sort\" value=\"" + escape_html(view.asked.sort) +
          "\"/><p class=\"field\"><button>Show</button> " + link_html("/", "Reset") + "</p></form>";
@@ -185,20 +179,6 @@ std::function<bool(const CohortEntry&, const CohortEntry&)> order_of(const std::
   };
 }
 
-std::string page_links(const CohortQuestion& asked, int pages) {
-  if (pages <= 1) return "";
-  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the table\">";
-  for (int n = 1; n <= pages; ++n) {
-    if (n != 1 && n != pages && std::abs(n - asked.page) > 2) {
-      if (std::abs(n - asked.page) == 3) out += "<span>\xE2\x80\xA6</span>";
-      continue;
-    }
-    out += n == asked.page ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
-                           : link_html(with(asked, "page", std::to_string(n)) + "#trainees", std::to_string(n));
-  }
-  return out + "</nav>";
-}
-
 /// Of what is shown: it follows every filter.
 std::string headline(const std::vector<CohortEntry>& lines) {
   std::set<std::string> who;
@@ -282,7 +262,8 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                      table("Trainees, " + plural(count, "line", "lines") +
                                ": one for each exercise, level and input; peak force is the mean over graded attempts",
                            head(asked), rows, "cohort") +
-                     page_links(asked, pages));
+                     part_links("Parts of the table", asked.page, pages,
+                                [&asked](int n) { return with(asked, "page", std::to_string(n)) + "#trainees"; }));
   return document(frame, out);
 }
 

@@ -30,13 +30,6 @@ std::string state_badge(StepState state) {
          step_state_words(state) + "</span>";
 }
 
-std::vector<Choice> names_with(const std::string& all, const std::vector<std::string>& names) {
-  std::vector<Choice> out;
-  if (!all.empty()) out.emplace_back("", all);
-  for (const std::string& name : names) out.emplace_back(name, name);
-  return out;
-}
-
 std::vector<std::pair<std::string, std::string>> asked_items(const GridQuestion& asked) {
   return {{"programme", asked.programme},
           {"group", asked.group},
@@ -48,9 +41,8 @@ std::string grid_filters(const GridView& view) {
   std::vector<Choice> states = {{"", "any state"}};
   for (const StepState state : kStepStates) states.emplace_back(step_state_key(state), step_state_words(state));
   return "<form class=\"filters\" method=\"get\" action=\"/grid\">" +
-         select_field("f-programme", "programme", "Programme", names_with("", view.programmes), view.asked.programme,
-                      true) +
-         select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.asked.group, true) +
+         select_field("f-programme", "programme", "Programme", one_of(view.programmes), view.asked.programme, true) +
+         select_field("f-group", "group", "Group", all_or_one("all groups", view.groups), view.asked.group, true) +
          select_field("f-state", "state", "With a step that is", states, view.asked.state) +
          select_field("f-away", "deactivated", "Deactivated", {{"", "left out"}, {"yes", "shown too"}},
                       view.asked.deactivated ? "yes" : "") +
@@ -148,15 +140,11 @@ std::string grid_head(const GridView& view, const std::vector<Due>& usual) {
 }
 
 std::string grid_parts(const GridQuestion& asked, int page, int pages) {
-  if (pages <= 1) return "";
-  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the grid\">";
-  for (int n = 1; n <= pages; ++n) {
+  return part_links("Parts of the grid", page, pages, [&asked](int n) {
     auto items = asked_items(asked);
     items.emplace_back("page", std::to_string(n));
-    out += n == page ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
-                     : link_html("/grid" + query_html(items), std::to_string(n));
-  }
-  return out + "</nav>";
+    return "/grid" + query_html(items);
+  });
 }
 
 std::string grid_table(const GridView& view) {
@@ -236,9 +224,9 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
           section(
               "reminders", "Who is late, and who soon would be",
               "<form class=\"filters\" method=\"get\" action=\"/reminders\">" +
-                  select_field("f-programme", "programme", "Programme", names_with("all programmes", view.programmes),
+                  select_field("f-programme", "programme", "Programme", all_or_one("all programmes", view.programmes),
                                view.programme, true) +
-                  select_field("f-group", "group", "Group", names_with("all groups", view.groups), view.group, true) +
+                  select_field("f-group", "group", "Group", all_or_one("all groups", view.groups), view.group, true) +
                   text_field("f-days", "days", "Overdue, or due within days", days,
                              "type=\"number\" min=\"0\" max=\"3660\" required=\"required\"") +
                   "<p class=\"field\"><button>Show</button></p></form>" +

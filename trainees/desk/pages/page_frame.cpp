@@ -383,4 +383,32 @@ std::string head_cells(const std::vector<std::string>& words) {
 std::string cell(const std::string& words) { return "<td>" + escape_html(words) + "</td>"; }
 std::string number_cell(const std::string& words) { return "<td class=\"n\">" + escape_html(words) + "</td>"; }
 
+std::vector<std::pair<std::string, std::string>> one_of(const std::vector<std::string>& values) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const std::string& value : values) out.emplace_back(value, value);
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> all_or_one(const std::string& all,
+                                                            const std::vector<std::string>& values) {
+  auto out = one_of(values);
+  out.emplace(out.begin(), "", all);
+  return out;
+}
+
+std::string part_links(const std::string& label, int page, int pages,
+                       const std::function<std::string(int n)>& href_html) {
+  if (pages <= 1) return "";
+  std::string out = "<nav class=\"pages\" aria-label=\"" + escape_html(label) + "\">";
+  for (int n = 1; n <= pages; ++n) {
+    if (n != 1 && n != pages && std::abs(n - page) > 2) {
+      if (std::abs(n - page) == 3) out += "<span>\xE2\x80\xA6</span>";
+      continue;
+    }
+    out += n == page ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
+                     : link_html(href_html(n), std::to_string(n));
+  }
+  return out + "</nav>";
+}
+
 }  // namespace trocar::review

@@ -3,6 +3,7 @@
 // Functions return HTML; what they take is plain text unless its name ends in _html. Thread: any.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,5 +125,14 @@ std::string table(const std::string& caption, const std::string& head_html, cons
 std::string head_cells(const std::vector<std::string>& words);  ///< ">word" for a number's column
 std::string cell(const std::string& words);
 std::string number_cell(const std::string& words);
+
+/// Choices of a filter that are called by what they send; before them what does not filter.
+std::vector<std::pair<std::string, std::string>> one_of(const std::vector<std::string>& values);
+std::vector<std::pair<std::string, std::string>> all_or_one(const std::string& all,
+                                                            const std::vector<std::string>& values);
+/// Links to the parts of a long list: first, last, and those beside the one that is shown; "" for one part.
+/// @param href_html of the n-th, from 1.
+std::string part_links(const std::string& label, int page, int pages,
+                       const std::function<std::string(int n)>& href_html);
 
 }  // namespace trocar::review

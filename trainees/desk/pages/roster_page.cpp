@@ -9,15 +9,9 @@ namespace {
 
 std::string shown_person(const RosterEntry& one) { return one.name.empty() ? one.code : one.name; }
 
-std::vector<Choice> group_choices(const std::string& all, const std::vector<std::string>& groups) {
-  std::vector<Choice> out = {{"", all}};
-  for (const std::string& group : groups) out.emplace_back(group, group);
-  return out;
-}
-
 std::string roster_filters(const RosterView& view) {
   return "<form class=\"filters\" method=\"get\" action=\"/roster\">" +
-         select_field("f-group", "group", "Group", group_choices("all groups", view.groups), view.group, true) +
+         select_field("f-group", "group", "Group", all_or_one("all groups", view.groups), view.group, true) +
          select_field("f-who", "who", "Who", {{"active", "active"}, {"deactivated", "deactivated"}, {"all", "both"}},
                       view.who) +
          "<p class=\"field\"><button>Show</button></p></form>";
@@ -69,15 +63,9 @@ std::string roster_acts(const RosterView& view, const Frame& frame) {
 }
 
 std::string roster_parts(const RosterView& view, int pages) {
-  if (pages <= 1) return "";
-  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the list\">";
-  for (int n = 1; n <= pages; ++n)
-    out +=
-        n == view.page
-            ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
-            : link_html("/roster" + query_html({{"group", view.group}, {"who", view.who}, {"page", std::to_string(n)}}),
-                        std::to_string(n));
-  return out + "</nav>";
+  return part_links("Parts of the list", view.page, pages, [&view](int n) {
+    return "/roster" + query_html({{"group", view.group}, {"who", view.who}, {"page", std::to_string(n)}});
+  });
 }
 
 std::string roster_list(RosterView view, const Frame& frame) {

@@ -125,23 +125,14 @@ std::string result_cell(const ListedAttempt& one) {
 }
 
 std::string attempts_pages(const CurveView& curve, int page, int pages) {
-  if (pages <= 1) return "";
-  std::string out = "<nav class=\"pages\" aria-label=\"Parts of the list\">";
-  for (int n = 1; n <= pages; ++n) {
-    if (n != 1 && n != pages && std::abs(n - page) > 2) {
-      if (std::abs(n - page) == 3) out += "<span>\xE2\x80\xA6</span>";
-      continue;
-    }
-    out += n == page ? "<strong aria-current=\"page\">" + std::to_string(n) + "</strong>"
-                     : link_html(query_html({{"exercise", curve.key.exercise_id},
-                                             {"level", curve.key.level},
-                                             {"hand", curve.key.hand},
-                                             {"rubric", curve.key.rubric_sha256.substr(0, 12)},
-                                             {"page", std::to_string(n)}}) +
-                                     "#attempts",
-                                 std::to_string(n));
-  }
-  return out + "</nav>";
+  return part_links("Parts of the list", page, pages, [&curve](int n) {
+    return query_html({{"exercise", curve.key.exercise_id},
+                       {"level", curve.key.level},
+                       {"hand", curve.key.hand},
+                       {"rubric", curve.key.rubric_sha256.substr(0, 12)},
+                       {"page", std::to_string(n)}}) +
+           "#attempts";
+  });
 }
 
 std::string attempts_table(const TraineeView& view) {

@@ -63,20 +63,14 @@ std::vector<Choice> metric_choices(const std::vector<std::string>& names) {
   return out;
 }
 
-std::vector<Choice> all_and(const std::string& all, const std::vector<std::string>& values) {
-  std::vector<Choice> out = {{"", all}};
-  for (const std::string& value : values) out.emplace_back(value, value);
-  return out;
-}
-
 std::string filters(const WhyView& view) {
   std::vector<Choice> exercises = {{"", "all exercises"}};
   exercises.insert(exercises.end(), view.exercises.begin(), view.exercises.end());
   std::string out =
       "<form class=\"filters\" method=\"get\" action=\"/why\">" +
-      select_field("f-group", "group", "Group", all_and("all groups", view.groups), view.asked.group, true) +
+      select_field("f-group", "group", "Group", all_or_one("all groups", view.groups), view.asked.group, true) +
       select_field("f-exercise", "exercise", "Exercise", exercises, view.asked.exercise_id) +
-      select_field("f-level", "level", "Level", all_and("all levels", view.levels), view.asked.level);
+      select_field("f-level", "level", "Level", all_or_one("all levels", view.levels), view.asked.level);
   if (!view.metrics.empty())
     out += select_field("f-metric", "metric", "Measure drawn", metric_choices(view.metrics), view.metric);
   return out + "<p class=\"field\"><button>Show</button> " + link_html("/why", "Reset") + "</p></form>";

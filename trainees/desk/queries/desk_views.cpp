@@ -25,13 +25,18 @@ CurvePoint point_of(const AttemptSummary& s) {
   return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score};
 }
 
+/// What an exercise is called; its identifier where nobody says.
+std::string title_in(const std::map<std::string, std::string>& titles, const std::string& exercise) {
+  const auto at = titles.find(exercise);
+  return at == titles.end() || at->second.empty() ? exercise : at->second;
+}
+
 CurveView curve_view(const CurveDetail& detail, const std::map<std::string, std::string>& titles, LevelReader& levels,
                      const ProgressRules& rules) {
   CurveView out;
   const LearningCurve& curve = detail.curve;
   out.key = curve.key;
-  const auto title = titles.find(curve.key.exercise_id);
-  out.title = title == titles.end() || title->second.empty() ? curve.key.exercise_id : title->second;
+  out.title = title_in(titles, curve.key.exercise_id);
   for (const PastAttempt& attempt : curve.attempts) {
     const AttemptSummary& s = attempt.summary;
     out.points.push_back(point_of(s));
@@ -71,7 +76,6 @@ void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, s
   std::set<std::string> started;
   for (const CohortEntry& line : view.lines) started.insert(line.code);
   const std::set<std::int64_t> erased = desk::training_erased(desk.database.connection());
-  const auto title = titles.find(view.asked.exercise_id);
   for (const auto& [id, person] : desk::people(desk.database.connection())) {
     const bool wanted = view.asked.group.empty() ||
                         std::find(person.groups.begin(), person.groups.end(), view.asked.group) != person.groups.end();
@@ -82,7 +86,7 @@ void add_not_started(CohortView& view, Desk& desk, const std::map<std::string, s
     entry.code = person.code;
     entry.name = person.name;
     entry.exercise_id = view.asked.exercise_id;
-    entry.exercise = title == titles.end() ? view.asked.exercise_id : title->second;
+    entry.exercise = title_in(titles, view.asked.exercise_id);
     entry.level = view.asked.level;
     const bool narrowed = !entry.exercise_id.empty() || !entry.level.empty();
     entry.judgements.push_back({Flag::kNotStarted,
@@ -129,8 +133,7 @@ std::vector<LossLine> loss_lines(Desk& desk, const std::vector<NewestAttempts>& 
                                  const std::map<std::string, std::string>& titles) {
   std::vector<LossLine> out;
   for (Losses& losses : losses_of(desk.database, of)) {
-    const auto title = titles.find(losses.key.exercise_id);
-    const std::string words = title == titles.end() ? losses.key.exercise_id : title->second;
+    const std::string words = title_in(titles, losses.key.exercise_id);
     out.push_back({words, std::move(losses), {}});
   }
   return out;
@@ -270,11 +273,10 @@ CohortView cohort_view(Desk& desk, const Request& request) {
   filter.deactivated = argument(request.query, "deactivated") == "yes";
   LevelReader levels(desk);
   for (CohortLine& line : lines_of(desk, rules, filter, request.now_utc)) {
-    const auto title = titles.find(line.key.exercise_id);
     view.lines.push_back({line.trainee,
                           line.name,
                           line.key.exercise_id,
-                          title == titles.end() ? line.key.exercise_id : title->second,
+                          title_in(titles, line.key.exercise_id),
                           line.key.level,
                           line.key.hand,
                           line.tries,
@@ -346,8 +348,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   }
   std::sort(view.due.begin(), view.due.end(), [](const DueDate& a, const DueDate& b) { return a.utc < b.utc; });
   for (const Reminder& step : next_steps(desk.database, view.code, request.now_utc)) {
-    const auto title = titles.find(step.step.exercise_id);
-    view.due.push_back({title == titles.end() ? step.step.exercise_id : title->second, step.step.level, step.due,
+    view.due.push_back({title_in(titles, step.step.exercise_id), step.step.level, step.due,
                         "programme " + step.programme + ": " + step.missing, step.state == StepState::kOverdue});
   }
   view.chosen = chosen_curve(view.curves, request);
