@@ -40,17 +40,15 @@ const std::vector<SealedTable>& tables() {
       {"revocation", "c.uuid, r.author, r.printed, r.reason, r.utc",
        "revocation r JOIN certificate c ON c.id = r.certificate_id"},
       {"erasure", "t.uuid, r.kind, r.rule, r.author, r.utc", "erasure" + of_trainee},
+      {"standing", whose + ", r.active, r.reason, r.author, r.printed, r.utc", "standing" + of_trainee},
+      {"assignment", whose + ", r.group_name, r.programme, r.due, r.author, r.printed, r.utc",
+       "assignment r LEFT JOIN trainee t ON t.id = r.trainee_id"},
+      {"withdrawal", "a.uuid, r.reason, r.author, r.printed, r.utc",
+       "withdrawal r JOIN assignment a ON a.id = r.assignment_id"},
       {kAccountTable,
        "r.login, r.name, r.role, (SELECT uuid FROM trainee WHERE id = r.trainee_id), r.password, r.created_utc,"
        " r.disabled_utc",
        "account r", false},
-      {"standing", "t.uuid, r.active, r.reason, r.author, r.printed, r.utc", "standing" + of_trainee, false},
-      {"assignment",
-       "(SELECT uuid FROM trainee WHERE id = r.trainee_id), r.group_name, r.programme, r.due, r.author, r.printed,"
-       " r.utc",
-       "assignment r", false},
-      {"withdrawal", "a.uuid, r.reason, r.author, r.printed, r.utc",
-       "withdrawal r JOIN assignment a ON a.id = r.assignment_id", false},
   };
   return kSealedTables;
 }

@@ -184,6 +184,9 @@ const std::vector<CarriedTable>& carried_sealed() {
       sealed("certificate", "uuid @origin exercise_id level rule_version evidence author printed utc"),
       sealed("revocation", "uuid @certificate author printed reason utc"),
       sealed("erasure", "uuid @trainee kind rule author utc"),
+      sealed("standing", "uuid @origin active# reason author printed utc"),
+      sealed("assignment", "uuid @origin group_name programme due author printed utc"),
+      sealed("withdrawal", "uuid @assignment reason author printed utc"),
   };
   return kTables;
 }

@@ -1,5 +1,6 @@
 #include "trainees/exchange/sync/central_rights.h"
 
+#include <algorithm>
 #include <map>
 
 #include "trainees/exchange/sync/central_schema.h"
@@ -11,6 +12,9 @@ namespace {
 constexpr const char* kAsOwner = " SECURITY DEFINER SET search_path = trocar, pg_temp ";
 
 constexpr const char* kOwnStation = "\"station\" IN (SELECT s.uuid FROM trocar.station s WHERE s.login = session_user)";
+
+constexpr const char* kOfOwnPerson = "trainee_uuid IN (SELECT p.uuid FROM trocar.own_person p)";
+constexpr const char* kErase = "erase() RETURNS void LANGUAGE plpgsql";
 
 constexpr const char* kAdded[] = {
     "CREATE TABLE login (name text PRIMARY KEY, kind text NOT NULL CHECK (kind IN ('station', 'desk')),"
@@ -89,7 +93,7 @@ std::string erase_body() {
 }
 
 std::string function_statement(const std::string& head, const std::string& body) {
-  return "CREATE FUNCTION " + head + kAsOwner + "AS $body$ " + body + " $body$";
+  return "CREATE OR REPLACE FUNCTION " + head + kAsOwner + "AS $body$ " + body + " $body$";
 }
 
 std::vector<const CarriedTable*> with_login() {
@@ -105,6 +109,18 @@ struct Policy {
   std::string check;           ///< of an insertion
   std::string sees = "true";
 };
+
+/// What a station sees of a sealed table: of what is said about people, what is said about its own.
+std::string sees(const std::string& table) {
+  const std::string all = "(SELECT trocar.may_all())";
+  const std::string of_attempt =
+      "EXISTS (SELECT 1 FROM trocar.attempt a WHERE a.uuid = attempt_uuid AND a." + std::string(kOfOwnPerson) + ")";
+  if (table == "consent" || table == "standing") return all + " OR " + kOfOwnPerson;
+  if (table == "assignment") return all + " OR trainee_uuid IS NULL OR " + kOfOwnPerson;
+  if (table == "note") return all + " OR " + kOfOwnPerson + " OR " + of_attempt;
+  if (table == "rating" || table == "signature") return all + " OR " + of_attempt;
+  return "true";
+}
 
 std::string quoted_columns(const CarriedTable& table) {
   std::string text;
@@ -135,10 +151,8 @@ std::vector<Policy> policies() {
                                  table.name + "\".station AND a.xmin = pg_current_xact_id()::xid)")});
   }
   for (const CarriedTable& table : carried_sealed()) {
-    out.push_back(
-        {table.name, quoted_columns(table),
-         both(own, table.name == "curriculum" ? kNextVersion : may_bring(table.name)),
-         table.name == "consent" ? all + " OR trainee_uuid IN (SELECT p.uuid FROM trocar.own_person p)" : "true"});
+    out.push_back({table.name, quoted_columns(table),
+                   both(own, table.name == "curriculum" ? kNextVersion : may_bring(table.name)), sees(table.name)});
   }
   out.push_back({"person", "", "false", all + " OR " + own});
   out.push_back({"audit", "station, position, utc, actor, action, subject, detail, prev_hash, row_hash", own});
@@ -163,6 +177,17 @@ std::vector<Policy> policies() {
   return out;
 }
 
+void say_login(const std::string& table, std::vector<std::string>& out) {
+  out.push_back("ALTER TABLE " + table + " ADD COLUMN login text NOT NULL DEFAULT ''");
+  out.push_back("ALTER TABLE " + table + " ALTER COLUMN login SET DEFAULT session_user");
+}
+
+std::vector<std::string> policy_statements(const Policy& policy) {
+  return {"ALTER TABLE " + policy.table + " ENABLE ROW LEVEL SECURITY",
+          "CREATE POLICY sees ON " + policy.table + " FOR SELECT USING (" + policy.sees + ")",
+          "CREATE POLICY brings ON " + policy.table + " FOR INSERT WITH CHECK (" + policy.check + ")"};
+}
+
 std::string quoted_login(const std::string& login) {
   std::string text = "\"";
   for (const char c : login) text += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -175,14 +200,17 @@ constexpr const char* kCallable[] = {"is_owner()", "may_all()", "announce(text, 
 }  // namespace
 
 std::string may_bring(const std::string& table) {
-  static const std::string kOfPerson = "trainee_uuid IN (SELECT p.uuid FROM trocar.own_person p)",
-                           kOfAttempt = "EXISTS (SELECT 1 FROM trocar.own_attempt o WHERE o.uuid = attempt_uuid)",
+  static const std::string kOfAttempt = "EXISTS (SELECT 1 FROM trocar.own_attempt o WHERE o.uuid = attempt_uuid)",
                            kOfCertificate =
-                               "EXISTS (SELECT 1 FROM trocar.own_certificate o WHERE o.uuid = certificate_uuid)";
+                               "EXISTS (SELECT 1 FROM trocar.own_certificate o WHERE o.uuid = certificate_uuid)",
+                           kOfAssignment =
+                               "EXISTS (SELECT 1 FROM trocar.assignment o WHERE o.uuid = assignment_uuid AND"
+                               " o.trainee_uuid IN (SELECT p.uuid FROM trocar.own_person p))";
   static const std::map<std::string, std::string> kAbout{
-      {"consent", kOfPerson},           {"note", kOfPerson},           {"certificate", kOfPerson},
-      {"erasure", kOfPerson},           {"rating", kOfAttempt},        {"signature", kOfAttempt},
-      {"verdict_override", kOfAttempt}, {"revocation", kOfCertificate}};
+      {"consent", kOfOwnPerson},        {"note", kOfOwnPerson},         {"certificate", kOfOwnPerson},
+      {"erasure", kOfOwnPerson},        {"rating", kOfAttempt},         {"signature", kOfAttempt},
+      {"verdict_override", kOfAttempt}, {"revocation", kOfCertificate}, {"standing", kOfOwnPerson},
+      {"assignment", kOfOwnPerson},     {"withdrawal", kOfAssignment}};
   const auto about = kAbout.find(table);
   return about == kAbout.end() ? "true" : "(SELECT trocar.may_all()) OR " + about->second;
 }
@@ -190,26 +218,37 @@ std::string may_bring(const std::string& table) {
 std::vector<std::string> rights_statements() {
   std::vector<std::string> out;
   for (const char* statement : kAdded) out.emplace_back(statement);
-  for (const std::string table : {"audit", "conflict", "note_seen", "person_link", "recording"}) {
-    out.push_back("ALTER TABLE " + table + " ADD COLUMN login text NOT NULL DEFAULT ''");
-    out.push_back("ALTER TABLE " + table + " ALTER COLUMN login SET DEFAULT session_user");
-  }
-  for (const CarriedTable* table : with_login()) {
-    out.push_back("ALTER TABLE " + table->name + " ADD COLUMN login text NOT NULL DEFAULT ''");
-    out.push_back("ALTER TABLE " + table->name + " ALTER COLUMN login SET DEFAULT session_user");
-  }
+  for (const char* table : {"audit", "conflict", "note_seen", "person_link", "recording"}) say_login(table, out);
+  for (const CarriedTable* table : with_login()) say_login(table->name, out);
   for (const Function& function : kFunctions) out.push_back(function_statement(function.head, function.body));
-  out.push_back(function_statement("erase() RETURNS void LANGUAGE plpgsql", erase_body()));
+  out.push_back(function_statement(kErase, erase_body()));
   out.emplace_back(
       "CREATE TRIGGER chained AFTER INSERT ON audit REFERENCING NEW TABLE AS fresh FOR EACH STATEMENT EXECUTE FUNCTION"
       " chained()");
   out.emplace_back("REVOKE EXECUTE ON ALL FUNCTIONS IN SCHEMA trocar FROM PUBLIC");
   for (const Policy& policy : policies()) {
-    out.push_back("ALTER TABLE " + policy.table + " ENABLE ROW LEVEL SECURITY");
-    out.push_back("CREATE POLICY sees ON " + policy.table + " FOR SELECT USING (" + policy.sees + ")");
-    out.push_back("CREATE POLICY brings ON " + policy.table + " FOR INSERT WITH CHECK (" + policy.check + ")");
+    for (std::string& statement : policy_statements(policy)) out.push_back(std::move(statement));
   }
   return out;
+}
+
+std::vector<std::string> rights_since_3() {
+  std::vector<std::string> out{function_statement(kErase, erase_body())};
+  const auto& added = programme_tables();
+  for (const std::string& table : added) say_login(table, out);
+  for (const Policy& policy : policies()) {
+    if (std::find(added.begin(), added.end(), policy.table) != added.end()) {
+      for (std::string& statement : policy_statements(policy)) out.push_back(std::move(statement));
+    } else if (policy.sees != "true") {  // what a station sees has become less
+      out.push_back("ALTER POLICY sees ON " + policy.table + " USING (" + policy.sees + ")");
+    }
+  }
+  return out;
+}
+
+const std::vector<std::string>& programme_tables() {
+  static const std::vector<std::string> kTables{"standing", "assignment", "withdrawal"};
+  return kTables;
 }
 
 std::vector<std::string> grant_statements(const std::string& login) {

@@ -13,8 +13,11 @@
 
 namespace trocar::sync {
 
-/// Tables, columns, functions and policies that version 3 adds.
+/// Tables, columns, functions and policies, for a centre before version 3.
 std::vector<std::string> rights_statements();
+
+/// What version 4 adds to a centre of version 3.
+std::vector<std::string> rights_since_3();
 
 /// What a login of a station or a desk is granted, and its end. @param login as it stands in pg_roles.
 std::vector<std::string> grant_statements(const std::string& login);
@@ -23,5 +26,8 @@ std::vector<std::string> revoke_statements(const std::string& login);
 /// SQL that is true for a row of a sealed table that whoever asks may bring: a desk what it likes, a station what is
 /// about its own people and attempts. Columns stand by their names alone. "true" for tables that are about nobody.
 std::string may_bring(const std::string& table);
+
+/// Tables that came with version 4.
+const std::vector<std::string>& programme_tables();
 
 }  // namespace trocar::sync

@@ -80,15 +80,18 @@ void add_version_1(std::vector<std::string>& statements) {
   for (const char* statement : kIndices) statements.emplace_back(statement);
 }
 
+void number_arrivals(const std::string& table, std::vector<std::string>& statements) {
+  statements.push_back("ALTER TABLE " + table + " ADD COLUMN seq bigint NOT NULL DEFAULT nextval('arrival')");
+  statements.push_back("CREATE INDEX " + table + "_by_seq ON " + table + " (seq)");
+}
+
 /// Rows that were there get numbers in no order: who fetches for the first time takes all.
 void add_version_2(std::vector<std::string>& statements) {
   statements.emplace_back("CREATE SEQUENCE arrival");
   statements.emplace_back("ALTER TABLE central ADD COLUMN revision bigint NOT NULL DEFAULT 0");
   statements.emplace_back("ALTER TABLE audit ADD COLUMN seq bigint NOT NULL DEFAULT nextval('arrival')");
   for (const CarriedTable* table : carried_tables()) {
-    if (of_attempt(*table)) continue;  // they come with their attempt
-    statements.push_back("ALTER TABLE " + table->name + " ADD COLUMN seq bigint NOT NULL DEFAULT nextval('arrival')");
-    statements.push_back("CREATE INDEX " + table->name + "_by_seq ON " + table->name + " (seq)");
+    if (!of_attempt(*table)) number_arrivals(table->name, statements);  // else they come with their attempt
   }
   for (const char* statement : kVersion2) statements.emplace_back(statement);
   statements.emplace_back("UPDATE central SET version = 2, revision = (SELECT last_value FROM arrival)");
@@ -98,12 +101,26 @@ void add_version_2(std::vector<std::string>& statements) {
 
 std::vector<std::string> central_statements(int from) {
   std::vector<std::string> statements;
-  if (from < 1) add_version_1(statements);
-  if (from < 2) add_version_2(statements);
-  if (from < 3) {
-    for (std::string& statement : rights_statements()) statements.push_back(std::move(statement));
-    statements.emplace_back("UPDATE central SET version = 3");
+  const auto add = [&](const std::vector<std::string>& more) {
+    statements.insert(statements.end(), more.begin(), more.end());
+  };
+  if (from < 1) {
+    add_version_1(statements);
+  } else if (from < 4) {
+    for (const std::string& table : programme_tables()) statements.push_back(create_statement(carried_sealed(table)));
+    statements.emplace_back("UPDATE station SET last_position = 0");
   }
+  if (from < 2) {
+    add_version_2(statements);
+  } else if (from < 4) {
+    for (const std::string& table : programme_tables()) number_arrivals(table, statements);
+  }
+  if (from < 3) {
+    add(rights_statements());
+  } else if (from < 4) {
+    add(rights_since_3());
+  }
+  statements.push_back("UPDATE central SET version = " + std::to_string(kCentralVersion));
   return statements;
 }
 
@@ -117,7 +134,10 @@ const std::vector<std::string>& central_erasing() {
     statements.emplace_back(
         "DELETE FROM note_seen s USING note n, erased_trainee e WHERE n.uuid = s.note_uuid AND"
         " e.trainee_uuid = n.trainee_uuid");
-    for (const char* table : {"person", "note", "consent"}) {
+    statements.emplace_back(
+        "DELETE FROM withdrawal WHERE assignment_uuid IN (SELECT a.uuid FROM assignment a JOIN erased_trainee e ON"
+        " e.trainee_uuid = a.trainee_uuid)");
+    for (const char* table : {"person", "note", "consent", "standing", "assignment"}) {
       statements.push_back(std::string("DELETE FROM ") + table +
                            " WHERE trainee_uuid IN (SELECT trainee_uuid FROM erased_trainee)");
     }

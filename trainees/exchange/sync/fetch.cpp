@@ -46,19 +46,21 @@ bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row
       trainee && !is_here(connection, "trainee", links.home(connection, *trainee))) {
     return false;
   }
-  const auto certificate = value_at(table, row, "certificate_uuid");
-  if (!certificate) return true;
-  sql::Statement revoked(connection,
-                         "SELECT EXISTS (SELECT 1 FROM revocation WHERE certificate_id = c.id) FROM certificate c"
-                         " WHERE uuid = ?");
-  return revoked.bind(*certificate).step() && revoked.integer(0) == 0;
+  for (const auto& [of, ended] : {std::pair{"certificate", "revocation"}, std::pair{"assignment", "withdrawal"}}) {
+    const auto what = value_at(table, row, std::string(of) + "_uuid");
+    if (!what) continue;
+    sql::Statement once(connection, std::string("SELECT EXISTS (SELECT 1 FROM ") + ended + " WHERE " + of +
+                                        "_id = w.id) FROM " + of + " w WHERE uuid = ?");
+    return once.bind(*what).step() && once.integer(0) == 0;
+  }
+  return true;
 }
 
 void insert_sealed(sqlite3* connection, const CarriedTable& table, const Values& row, const Links& links) {
   const std::string uuid = row.front().value_or("");
   Values placed = row;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (table.columns[i].central != "trainee_uuid") continue;
+    if (table.columns[i].central != "trainee_uuid" || !row[i]) continue;
     placed[i] = links.home(connection, row[i].value_or(""));
     if (placed[i] != row[i]) note_origin(connection, uuid, row[i].value_or(""));
   }

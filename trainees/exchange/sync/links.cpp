@@ -23,6 +23,8 @@ const std::vector<Movable>& movables() {
       {"note", "note r", {"note_no_update"}},
       {"consent", "consent r", {"consent_no_update"}},
       {"certificate", "certificate r", {"certificate_no_update"}},
+      {"standing", "standing r", {"standing_no_update"}},
+      {"assignment", "assignment r", {"assignment_no_update"}},
       {"attempt", "attempt r JOIN replica x ON x.attempt_id = r.id", {"attempt_no_update", "attempt_keeps_identity"}},
   };
   return kTables;

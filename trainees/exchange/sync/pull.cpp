@@ -38,7 +38,15 @@ Wanted wanted_of(const CarriedTable& table, const KnownHere& known) {
     return {
         -1, "c.certificate_uuid IN (SELECT uuid FROM certificate WHERE trainee_uuid IN " + listed + ")", {known.all}};
   }
-  if (table.name == "consent" || table.name == "certificate") return {-1, "c.trainee_uuid IN " + listed, {known.all}};
+  if (table.name == "assignment") return {-1, "c.trainee_uuid IS NULL OR c.trainee_uuid IN " + listed, {known.all}};
+  if (table.name == "withdrawal") {
+    return {-1,
+            "c.assignment_uuid IN (SELECT uuid FROM assignment WHERE trainee_uuid IS NULL OR trainee_uuid IN " +
+                listed + ")",
+            {known.all}};
+  }
+  if (table.name == "consent" || table.name == "certificate" || table.name == "standing")
+    return {-1, "c.trainee_uuid IN " + listed, {known.all}};
   return {-1, "c.attempt_uuid IN " + attempts, {known.own}};
 }
 

@@ -96,9 +96,10 @@ class Push {
                     {station_.uuid})) {
       report_->conflicts.push_back(
           *row[0] + " " + *row[1] +
-          (row[3]->empty() ? ": is about somebody of another station; this login may not bring it, a desk may"
-                           : ": the central database has it with another hash (" + row[3]->substr(0, 12) + ", here " +
-                                 row[2]->substr(0, 12) + "); nothing was overwritten"));
+          (row[3]->empty()
+               ? ": is about somebody of another station, or about a group; this login may not bring it, a desk may"
+               : ": the central database has it with another hash (" + row[3]->substr(0, 12) + ", here " +
+                     row[2]->substr(0, 12) + "); nothing was overwritten"));
     }
     link_->commit();
   }
@@ -281,7 +282,8 @@ PushReport push_over(CentralLink& link, Database& database, const PushOptions& o
     report.told.push_back(
         "the central database knows this station up to entry " + std::to_string(there) + " of " +
         std::to_string(known) +
-        " that it had: it was put back to an older state. What is missing of this station is pushed again");
+        " that it had: it was put back to an older state, or set up anew by a newer program. What is missing of this"
+        " station is pushed again");
   }
   report.from = report.to = std::min(known, there);  // either side may have been put back
   send_batches(push, database, link.uuid(), options, report);

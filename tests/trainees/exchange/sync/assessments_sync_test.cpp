@@ -6,6 +6,8 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/programmes.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -157,6 +159,74 @@ TEST_F(Assessments, GroupsAreThoseOfTheNewestChangeThatReachedTheCentre) {
   travel(copy, north);
   EXPECT_EQ(CurriculumStore(north).groups_of("T-north"), (Lines{"monday", "tuesday"}));
   EXPECT_EQ(problems_of(copy), "");
+}
+
+constexpr const char* kCourse = "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n";
+
+TEST_F(Assessments, WhoIsActiveIsKnownAtTheStationAndAtTheDesk) {
+  Database copy = station("desk"), north = station("north"), south = station("south");
+  StandingStore(copy).set_active({"T-north"}, false, "left in June", kTeacher);
+  travel(copy, north);
+  EXPECT_FALSE(StandingStore(north).of("T-north").active);
+  EXPECT_EQ(StandingStore(north).of("T-north").reason, "left in June");
+  EXPECT_NE(message_of<InputError>([&] {
+              store_attempt(north, sample_start("T-north"), sample_result());
+            }).find("is deactivated"),
+            std::string::npos);
+  EXPECT_FALSE(pull(south).added.contains("standing")) << "it is no business of that station";
+  StandingStore(north).set_active({"T-north"}, true, "", kOther);
+  push(north);
+  EXPECT_EQ(replicate_central(copy, central_).problems, Lines{});
+  EXPECT_TRUE(StandingStore(copy).of("T-north").active);
+  EXPECT_EQ(StandingStore(copy).of("T-north").printed, kOther.printed);
+  EXPECT_EQ(problems_of(copy), "");
+}
+
+TEST_F(Assessments, ProgrammesAssignedAtTheDeskHoldAtTheStationUntilTheyAreWithdrawn) {
+  Database copy = station("desk"), second = desk("second"), north = station("north"), south = station("south");
+  CurriculumStore(copy).join("T-north", "monday", kTeacher);
+  ProgrammeStore(copy).save("Basics", kCourse, kTeacher);
+  const Assignment group = ProgrammeStore(copy).assign("Basics", "", "monday", "2027-06-30", kTeacher);
+  ProgrammeStore(copy).assign("Basics", "T-north", "", "2027-07-31", kTeacher);
+  travel(copy, north);
+  const auto here = ProgrammeStore(north).assignments();
+  ASSERT_EQ(here.size(), 2u);
+  EXPECT_EQ(here[0].trainee, "T-north");
+  EXPECT_EQ(here[0].due, "2027-07-31");
+  EXPECT_EQ(here[1].group, "monday");
+  EXPECT_EQ(pull(south).added.at("assignment"), 1) << "that of the group: somebody may join it anywhere";
+  // Two desks withdraw one at once: it is withdrawn, at both as whoever was first there.
+  EXPECT_EQ(replicate_central(second, central_).problems, Lines{});
+  ProgrammeStore(copy).withdraw(group.uuid, "the course is over", kTeacher);
+  ProgrammeStore(second).withdraw(group.uuid, "", kOther);
+  push(second, "second");
+  push(copy, "desk");
+  for (Database* one : {&copy, &second}) {
+    EXPECT_EQ(replicate_central(*one, central_).problems, Lines{});
+    EXPECT_EQ(problems_of(*one), "");
+  }
+  pull(north);
+  for (const Assignment& one : ProgrammeStore(north).assignments())
+    EXPECT_EQ(one.withdrawn_utc.empty(), one.group.empty());
+  EXPECT_EQ(push(north).conflicts, Lines{});
+}
+
+TEST_F(Assessments, AnErasedPersonsStandingAndProgrammesGoEverywhere) {
+  Database copy = station("desk"), north = station("north");
+  StandingStore(copy).set_active({"T-north"}, false, "ill", kTeacher);
+  ProgrammeStore(copy).save("Basics", kCourse, kTeacher);
+  const Assignment own = ProgrammeStore(copy).assign("Basics", "T-north", "", "", kTeacher);
+  ProgrammeStore(copy).withdraw(own.uuid, "ill", kTeacher);
+  travel(copy, north);
+  erase_trainee(north, "T-north", ErasureKind::kIdentity, "request of the person", kTeacher);
+  push(north);
+  EXPECT_EQ(replicate_central(copy, central_).problems, Lines{});
+  for (const std::string table : {"standing", "assignment", "withdrawal"}) {
+    EXPECT_EQ(one("SELECT count(*) FROM " + table), "0") << table;
+    for (Database* database : {&copy, &north})
+      EXPECT_EQ(sql::query_integer(database->connection(), ("SELECT count(*) FROM " + table).c_str()), 0) << table;
+  }
+  EXPECT_EQ(problems_of(copy) + problems_of(north), "");
 }
 
 TEST_F(Assessments, AGroupThatWasLeftHereIsNotJoinedAgainByOlderNews) {

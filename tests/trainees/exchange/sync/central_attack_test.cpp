@@ -12,6 +12,8 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/programmes.h"
+#include "trainees/records/standings.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::central_attack_test {
@@ -133,6 +135,13 @@ TEST_F(CentralAttack, NothingIsChangedTakenAwayOrWrittenInAnothersName) {
            "INSERT INTO revocation (uuid, certificate_uuid, digest, station) SELECT 'x', uuid, '', 'OWN' FROM"
            " certificate WHERE station = 'OTHER'",
            "INSERT INTO note (uuid, trainee_uuid, text, digest, station) VALUES ('x', 'TRAINEE', 'x', '', 'OWN')",
+           "INSERT INTO standing (uuid, trainee_uuid, active, digest, station) VALUES ('x', 'TRAINEE', 0, '', 'OWN')",
+           "INSERT INTO assignment (uuid, trainee_uuid, programme, digest, station) VALUES ('x', 'TRAINEE', 'x', '',"
+           " 'OWN')",
+           "INSERT INTO assignment (uuid, group_name, programme, digest, station) VALUES ('x', 'monday', 'x', '',"
+           " 'OWN')",
+           "INSERT INTO withdrawal (uuid, assignment_uuid, digest, station) SELECT 'x', uuid, '', 'OWN' FROM"
+           " assignment UNION SELECT 'y', 'y', '', 'OWN'",
            "INSERT INTO erasure (uuid, trainee_uuid, kind, digest, station) VALUES ('x', 'TRAINEE', 'training', '',"
            " 'OWN')",
            "INSERT INTO person_link (one, other, linked, author, utc) VALUES ('a', 'b', true, 'me', '')",
@@ -170,11 +179,19 @@ TEST_F(CentralAttack, WhatItMayCallDoesNothingToOthers) {
   EXPECT_EQ(all(), before);
 }
 
-TEST_F(CentralAttack, NamesAndConsentsOfOtherStationsAreNotSeen) {
+TEST_F(CentralAttack, NamesNotesAndConsentsOfOtherStationsAreNotSeen) {
+  Database north = station("north");
+  StandingStore(north).set_active({"T-north"}, false, "ill", kTeacher);
+  come(north, north_);
+  EXPECT_EQ(one("SELECT count(*) FROM standing"), "1");
+  EXPECT_NE(one("SELECT count(*) FROM signature WHERE station = '" + other_ + "'"), "0");
   EXPECT_EQ(attack("SELECT count(*) FROM person WHERE code = 'T-south'"), "");
   EXPECT_EQ(last_, "1");
   for (const char* hidden : {"SELECT count(*) FROM person WHERE code = 'T-north'",
-                             "SELECT count(*) FROM consent WHERE trainee_uuid = 'TRAINEE'"}) {
+                             "SELECT count(*) FROM consent WHERE trainee_uuid = 'TRAINEE'",
+                             "SELECT count(*) FROM note WHERE trainee_uuid = 'TRAINEE'",
+                             "SELECT count(*) FROM standing", "SELECT count(*) FROM rating WHERE station = 'OTHER'",
+                             "SELECT count(*) FROM signature WHERE station = 'OTHER'"}) {
     EXPECT_EQ(attack(filled(hidden)), "");
     EXPECT_EQ(last_, "0") << hidden;
   }
@@ -224,6 +241,23 @@ TEST_F(CentralAttack, AStationThatSaysSomethingOfAnothersPeopleIsToldAndTheRestG
   EXPECT_EQ(one("SELECT count(*) FROM curriculum"), "1");
   EXPECT_EQ(one("SELECT count(*) FROM verdict_override WHERE attempt_uuid = '" + north + "' AND passed = 1"),
             north == attempt_ ? "1" : "0");
+}
+
+TEST_F(CentralAttack, AStationDeactivatesAndAssignsItsOwnPeopleAndNoGroups) {
+  Database south = station("south");
+  CurriculumStore(south).join("T-south", "monday", kTeacher);
+  ProgrammeStore programmes(south);
+  programmes.save("Basics", "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n", kTeacher);
+  const Assignment own = programmes.assign("Basics", "T-south", "", "", kTeacher);
+  programmes.withdraw(own.uuid, "", kTeacher);
+  StandingStore(south).set_active({"T-south"}, false, "", kTeacher);
+  const PushReport report = come(south, south_);
+  EXPECT_EQ(report.conflicts, Lines{});
+  for (const char* table : {"standing", "assignment", "withdrawal"}) EXPECT_EQ(report.added.at(table), 1) << table;
+  programmes.assign("Basics", "", "monday", "", kTeacher);
+  const PushReport group = come(south, south_);
+  ASSERT_EQ(group.conflicts.size(), 1u);
+  EXPECT_NE(group.conflicts[0].find("or about a group"), std::string::npos) << group.conflicts[0];
 }
 
 TEST_F(CentralAttack, ARecordThatWasRewrittenOrPutBackIsFoundByItsWitness) {

@@ -13,6 +13,7 @@
 #include "trainees/exchange/sync/station.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/standings.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::dropped_test {
@@ -275,7 +276,10 @@ TEST_F(Stations, AnotherDatabaseOfTheServerIsAnotherCentre) {
   EXPECT_NE(message.find("no_such_database"), std::string::npos) << message;
 }
 
-/// Takes from a centre what version 3, and version 2 before it, added.
+/// Takes from a centre what version 4 added, and those before it.
+constexpr const char* kBackToVersion3 =
+    "DROP TABLE trocar.withdrawal, trocar.assignment, trocar.standing; ALTER POLICY sees ON trocar.note USING (true);"
+    " UPDATE trocar.central SET version = 3";
 constexpr const char* kBackToVersion2 =
     "DO $$ DECLARE t text; BEGIN DROP TRIGGER chained ON trocar.audit; FOR t IN SELECT tablename FROM pg_tables WHERE "
     "schemaname = 'trocar' LOOP"
@@ -295,22 +299,29 @@ constexpr const char* kBackToVersion1 =
     " DROP SEQUENCE trocar.arrival; UPDATE trocar.central SET version = 1; END $$";
 
 TEST_F(Stations, ACentreOfAnOlderSchemaIsBroughtToTheNewOneByItsOwnerAndKeepsEverything) {
-  for (const int version : {2, 1}) {
+  for (const int version : {3, 2, 1}) {
     central_ = another_central();
     Database database = station("a" + std::to_string(version));
     practise(database, "T-a", 2);
     push_named(database, "a");
     const Lines before = everything();
-    ask(kBackToVersion2);
+    StandingStore(database).set_active({"T-a"}, false, "", {});
+    StandingStore(database).set_active({"T-a"}, true, "", {});
+    push_named(database, "a");
+    ask(kBackToVersion3);
+    if (version < 3) ask(kBackToVersion2);
     if (version == 1) ask(kBackToVersion1);
     practise(database, "T-a", 1);
     const std::string refused = message_of<EnvironmentError>([&] { push_named(database, "a"); });
     EXPECT_NE(refused.find("older trocar (schema " + std::to_string(version)), std::string::npos) << refused;
     EXPECT_NE(refused.find("trocar sync central --at"), std::string::npos) << refused;
     EXPECT_EQ(set_up_central(server_.owner_of(central_)).from, version);
-    EXPECT_EQ(set_up_central(server_.owner_of(central_)).from, 3);
-    central_ = server_.owner_of(central_);
-    EXPECT_EQ(push_named(database, "a").added.at("attempt"), 1);
+    EXPECT_EQ(set_up_central(server_.owner_of(central_)).from, 4);
+    if (version < 3) central_ = server_.owner_of(central_);
+    const PushReport pushed = push_named(database, "a");
+    EXPECT_EQ(pushed.conflicts, Lines{});
+    EXPECT_EQ(pushed.added.at("attempt"), 1);
+    EXPECT_EQ(pushed.added.at("standing"), 2) << "written before the centre knew of such rows";
     const Lines after = everything();
     for (const std::string& line : before) {
       if (line.starts_with("station")) continue;  // how far one is has changed

@@ -4,6 +4,7 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/standings.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::linked_people_test {
@@ -136,6 +137,29 @@ TEST_F(Linked, GetNotesAtWhicheverStationTheyComeTo) {
   EXPECT_EQ(pull_from_central(south, central_, false).problems, Lines{});
   EXPECT_EQ(AssessmentStore(south).notes_of("a.nna").front().text.substr(0, 4), "Keep") << "not hers any more";
   EXPECT_EQ(problems_of(south), "");
+}
+
+TEST_F(Linked, AreActiveOrNotAtBothStations) {
+  Database copy = station("desk"), south = station("south"), north = station("north");
+  StandingStore(south).set_active({"a.nna"}, false, "away", kTeacher);
+  push(south);
+  link();
+  refresh(copy);
+  EXPECT_FALSE(StandingStore(copy).of("anna").active);
+  EXPECT_EQ(pull_from_central(north, central_, false).problems, Lines{});
+  EXPECT_FALSE(StandingStore(north).of("anna").active);
+  StandingStore(copy).set_active({"anna"}, true, "", kTeacher);
+  push(copy);
+  for (Database* one : {&south, &north}) {
+    EXPECT_EQ(pull_from_central(*one, central_, false).problems, Lines{});
+    EXPECT_EQ(problems_of(*one), "");
+    EXPECT_EQ(push(*one).conflicts, Lines{});
+  }
+  EXPECT_TRUE(StandingStore(south).of("a.nna").active);
+  part();
+  refresh(copy);
+  EXPECT_EQ(pull_from_central(north, central_, false).problems, Lines{});
+  EXPECT_TRUE(StandingStore(north).of("anna").active);
 }
 
 TEST_F(Linked, AreErasedTogether) {
