@@ -1,5 +1,6 @@
 #include "app/cli/attempts/check_command.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -7,9 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/attempts/board_play.h"
 #include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/scoring/trace.h"
 #include "trainees/files/write_file.h"
 
 namespace trocar {
@@ -28,6 +31,16 @@ Json reach_json(const Reach& reach) {
   if (reach.handle_to_port_m < 1) json["handle_to_port_m"] = reach.handle_to_port_m;
   if (reach.shaft_gap_m < 1) json["shaft_gap_m"] = reach.shaft_gap_m;
   return json;
+}
+
+Json played_json(const PlayedLevel& played) {
+  Json boards = Json::array();
+  for (const PlayedBoard& board : played.boards) {
+    Json one = {{"board", board.board}, {"status", status_name(board.status)}, {"score", board.score}};
+    if (!board.why.empty()) one["why"] = board.why;
+    boards.push_back(std::move(one));
+  }
+  return {{"sound", played.why().empty()}, {"why", played.why()}, {"boards", std::move(boards)}};
 }
 
 Json proof_json(const LevelProof& proof) {
@@ -50,6 +63,14 @@ Json proof_json(const LevelProof& proof) {
           {"boards", std::move(boards)}};
 }
 
+void print(const PlayedLevel& played, std::ostream& out) {
+  const auto [worst, best] = std::minmax_element(played.boards.begin(), played.boards.end(),
+                                                 [](const auto& a, const auto& b) { return a.score < b.score; });
+  out << "  played by the expert on the simulated plant: " << played.boards.size() << " boards, "
+      << std::setprecision(1) << worst->score << " to " << best->score << " points"
+      << (played.why().empty() ? "" : "; NOT sound: " + played.why()) << '\n';
+}
+
 void print(const LevelProof& proof, std::ostream& out) {
   const Reach& w = proof.worst;
   out << proof.exercise << ' ' << proof.level << " (" << (proof.fulcrum ? "fulcrum" : "direct")
@@ -70,17 +91,30 @@ void print(const LevelProof& proof, std::ostream& out) {
 
 struct Checked {
   std::vector<LevelProof> proofs;
-  std::vector<Scene> scenes;  ///< one a proof, of its first board
+  std::vector<PlayedLevel> played;  ///< one a proof; without boards when none were played
+  std::vector<Scene> scenes;        ///< one a proof, of its first board
 };
 
-void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOptions& options, Checked& checked) {
-  for (const ExerciseLevel& level : exercise.levels) {
-    checked.proofs.push_back(prove_level(exercise, level.name, organ, options.unseen));
+std::vector<std::string> checked_levels(const Exercise& exercise, const CheckOptions& options) {
+  std::vector<std::string> names = options.levels;
+  for (const std::string& name : names) find_level(exercise, name);
+  if (!names.empty()) return names;
+  for (const ExerciseLevel& level : exercise.levels) names.push_back(level.name);
+  return names;
+}
+
+void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOptions& options, const AssetRoots& assets,
+                    std::ostream& err, Checked& checked) {
+  for (const std::string& level : checked_levels(exercise, options)) {
+    LevelProof proof = prove_level(exercise, level, organ, options.unseen);
+    PlayedLevel played = options.play ? play_level(exercise, level, options.organ, assets, err) : PlayedLevel{};
     AttemptSetup setup;
     setup.exercise = exercise;
-    setup.level = level.name;
+    setup.level = level;
     setup.weak_too = true;
     checked.scenes.push_back(build_scene(setup, organ, {"simulated", 1000, 16}));
+    checked.played.push_back(std::move(played));
+    checked.proofs.push_back(std::move(proof));
   }
 }
 
@@ -94,7 +128,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
   for (const std::string& subject : options.subjects) {
     try {
       const Exercise exercise = find_exercise(subject, assets.exercises);
-      check_exercise(exercise, organ, options, checked);
+      check_exercise(exercise, organ, options, assets, err, checked);
       if (!options.inversion.empty()) paint_inversion(exercise, organ, assets, options.inversion);
     } catch (const InputError& error) {
       err << "trocar: " << error.what() << '\n';
@@ -102,12 +136,17 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
     }
   }
   Json json = Json::array();
-  for (const LevelProof& proof : checked.proofs) {
-    sound = sound && proof.sound;
-    if (options.json)
+  for (std::size_t i = 0; i < checked.proofs.size(); ++i) {
+    const LevelProof& proof = checked.proofs[i];
+    const PlayedLevel& played = checked.played[i];
+    sound = sound && proof.sound && played.why().empty();
+    if (options.json) {
       json.push_back(proof_json(proof));
-    else
+      if (options.play) json.back()["played"] = played_json(played);
+    } else {
       print(proof, out);
+      if (options.play) print(played, out);
+    }
   }
   if (options.json) out << json.dump(2) << '\n';
   if (!options.map.empty()) write_file(options.map, room_map_svg(checked.proofs, checked.scenes));
@@ -127,6 +166,9 @@ void add_check(CLI::App& parent, CommandAction& chosen) {
   check->add_option("--map", o.map, "SVG of the force that the device can give over the board")->check(writable_path());
   check->add_option("--inversion", o.inversion, "Folder for two pictures of one hand motion, direct and through a port")
       ->check(writable_path());
+  check->add_option("--level", o.levels, "Levels to prove (default: all)")->delimiter(',');
+  check->add_flag("--play", o.play,
+                  "Also let the expert play each practice board, in lockstep: minutes, kept in the cache folder");
   check->add_flag("--json", o.json, "As JSON");
 }
 

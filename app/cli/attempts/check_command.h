@@ -17,10 +17,12 @@ struct CheckOptions {
   int unseen = kProvedUnseen;       ///< boards that seeds from 0 on draw, besides the practice boards 0 to 19
   std::filesystem::path map;        ///< SVG of the renderable force; empty: none
   std::filesystem::path inversion;  ///< folder of the picture pair; empty: none
+  std::vector<std::string> levels;  ///< empty: every level of the exercise
+  bool play = false;                ///< the expert plays boards too (board_play.h)
   bool json = false;
 };
 
-/// @return 0 when every level of every subject is sound, else 2.
+/// @return 0 when every level of every subject is sound and, if it was played, was passed on every board, else 2.
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err);
 
 /// One panel a level: renderable force over the board region, targets of the practice boards.

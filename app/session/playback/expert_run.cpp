@@ -54,6 +54,7 @@ AttemptSetup expert_setup(const AttemptSetup& of) {
   setup.hand = "expert";
   setup.seed = of.seed;
   setup.board = of.board;
+  setup.draw = of.draw;
   setup.placement = of.placement;
   setup.weak_too = of.weak_too;
   return setup;

@@ -14,6 +14,7 @@
 #include "app/session/setup/force_scale.h"
 #include "app/session/setup/patch_fit.h"
 #include "app/session/setup/placement.h"
+#include "app/session/setup/workspace_proof.h"
 #include "haptics/device/pointer_daq.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -129,6 +130,7 @@ void require_reach(const Scene& scene) {
 constexpr double kNoticedForce = 0.1;  // share by which a force must differ to be noticed [M]
 constexpr double kPointerAwake_s = 0.01;
 constexpr double kEntryAside = 0.025, kEntryAbove = 0.015;  // m from the start ball, towards the resting instrument
+constexpr int kBetweenDraws = 100000000;                    // numbers between a board's draws, beyond all boards
 constexpr double kLatticeCell = 0.010;                      // m
 constexpr double kSheetClear = 0.0002;                      // m between a sheet and the organ that it lies on
 constexpr double kSteepestSheet = 1.1;                      // rad of the organ beneath it
@@ -144,10 +146,38 @@ Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
   return kind_of(exercise).lay_out(exercise, scene.level, board, {*scene.organ_T, behind_tip, R_TI_rest});
 }
 
+/// Draws until the device can do what the board asks for. On an organ of one's own a few boards of a level come out
+/// with too few discs, or where gravity and the hard limit are more than a motor can give. The nominal device is asked,
+/// so that a number means the same board at every station. A level whose kappa follows from its boards asks no force.
+void draw_board(Scene& scene, const ShaftRoom* behind_tip) {
+  const std::optional<int>& known = scene.setup.draw;
+  const int first = known.value_or(0), end = known ? first + 1 : kBoardDraws;
+  InstrumentMap map = scene.loop.map;
+  map.force_scale = scene.level.force_scale;
+  std::optional<Board> taken;
+  std::exception_ptr refusal;
+  for (int draw = first; draw < end; ++draw) {
+    try {
+      Board board = lay_out(scene, scene.setup.board + draw * kBetweenDraws, behind_tip);
+      const bool sound = board_reach(scene.setup.exercise, board, device_model({}), map).sound({});
+      if (!taken || sound) {
+        taken = std::move(board);
+        scene.draw = draw;
+      }
+      if (sound) break;
+    } catch (const InputError&) {
+      if (!refusal) refusal = std::current_exception();
+    }
+  }
+  if (!taken) std::rethrow_exception(refusal);
+  scene.board = std::move(*taken);
+}
+
 /// Without motors 1. The number of the level, or what the boards allow that `trocar check` proves. One that cannot be
 /// laid out cannot be met, and asks nothing.
 double force_scale(const Scene& scene, const ShaftRoom* room) {
   if (!scene.loop.daq.motors) return 1;
+  if (scene.setup.force_scale) return *scene.setup.force_scale;
   if (scene.level.force_scale > 0) return scene.level.force_scale;
   std::vector<Board> boards;
   for (int k = 0; k < kPracticeBoards + kProvedUnseen; ++k) {
@@ -434,7 +464,7 @@ void set_stage(Scene& scene) {
     room.emplace(felt_surface(scene), scene.loop.tool, scene.loop.map);
   }
   const ShaftRoom* behind_tip = room ? &*room : nullptr;
-  scene.board = lay_out(scene, scene.setup.board, behind_tip);
+  draw_board(scene, behind_tip);
   hide(scene);
   run_ducts(scene);
   set_needle_up(scene);
@@ -518,6 +548,7 @@ std::string scene_json(const Scene& scene) {
       {"clamp_stiffness", s.clamp_stiffness},
       {"force_scale", scene.loop.map.force_scale}};
   if (!scene.loop.daq.motors) json["motors"] = false;
+  if (scene.draw > 0) json["draw"] = scene.draw;
   if (s.tissue != kStillTissue) json["tissue"] = s.tissue;
   if (kind_of(s.exercise).on_organ) json["placement"] = placement_json(scene.placement);
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
@@ -543,6 +574,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     s.hand = json.at("hand").get<std::string>();
     s.seed = json.at("seed").get<std::int64_t>();
     s.board = json.at("board").get<int>();
+    s.draw = json.value("draw", 0);
     s.rate_hz = json.at("rate_hz").get<double>();
     s.realtime = json.value("realtime", false);
     s.tissue = json.value("tissue", kStillTissue);

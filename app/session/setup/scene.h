@@ -70,10 +70,15 @@ struct AttemptSetup {
   std::vector<InjectedFault> faults;        ///< simulated back-end only
   std::shared_ptr<const PlantFile> plant;   ///< of the simulated back-end; none: drawn by the seed. A replay needs none
   std::optional<OrganPlacement> placement;  ///< where the organ lies, when that is known; none: it is looked for
+  std::optional<int> draw;                  ///< which draw of the board, when that is known; none: the first sound one
+  std::optional<double> force_scale;        ///< kappa, when it is known; none: the level's
   bool weak_too = false;                    ///< a force scale beyond the device is laid out too: proofs, replays
   bool realtime = false;                    ///< threads and the clock drive the tasks, else lockstep
   PaceLimits pace;
 };
+
+/// How often a board is drawn before the first draw is taken as it is, for `trocar check` to refuse.
+inline constexpr int kBoardDraws = 8;
 
 /// The setup resolved: organ placed, board laid out, loop configured.
 struct Scene {
@@ -92,6 +97,7 @@ struct Scene {
   std::shared_ptr<const SutureSetup> suture;        ///< with `soft`, a needle with thread; nullptr: none
   AdjacentOrgans adjacent;                          ///< what lies round the organ, when it is one of several
   Board board;
+  int draw = 0;  ///< of the board: the first on which the device can do what is asked
   HapticLoopConfig loop;
   double room_share = 1;  ///< of the region, where the device can give the soft force limit
 };

@@ -117,6 +117,13 @@ Reach reach_of(const DeviceModel& device, const InstrumentMap& map, const Pose& 
   return reach;
 }
 
+Reach board_reach(const Exercise& exercise, const Board& board, const DeviceModel& device, const InstrumentMap& map) {
+  Reach worst;
+  for (const Stop& stop : stops_of(exercise, board, map.instrument_pose(home_pose()).R))
+    worst.add(reach_of(device, map, stop.X_TI, {exercise.hard_force_n * stop.normal_T, Vec3::Zero()}));
+  return worst;
+}
+
 LevelProof prove_level(const Exercise& exercise, const std::string& level, const Organ& organ, int unseen,
                        const ReachRules& rules) {
   LevelProof proof;
@@ -130,15 +137,9 @@ LevelProof prove_level(const Exercise& exercise, const std::string& level, const
   for (int k = 0; k < kPracticeBoards + unseen; ++k) {
     setup.board = k < kPracticeBoards ? k : drawn_board(k - kPracticeBoards, exam);
     const Scene scene = build_scene(setup, organ, {"simulated", 1000, 16});
-    for (ExerciseLevel& each : setup.exercise.levels) {
-      if (each.name == level) each.force_scale = scene.loop.map.force_scale;  // "auto" is the same for every board
-    }
+    setup.force_scale = scene.loop.map.force_scale;  // "auto" is the same for every board
     const std::vector<Stop> stops = stops_of(exercise, scene.board, scene.loop.map.instrument_pose(home_pose()).R);
-    BoardReach board{setup.board, {}};
-    for (const Stop& stop : stops) {
-      const Wrench hard{exercise.hard_force_n * stop.normal_T, Vec3::Zero()};
-      board.worst.add(reach_of(scene.loop.device, scene.loop.map, stop.X_TI, hard));
-    }
+    BoardReach board{setup.board, board_reach(exercise, scene.board, scene.loop.device, scene.loop.map)};
     if (kind_of(exercise).on_organ) {
       board.worst.shaft_gap_m = least_shaft_gap(scene);
       setup.placement = proof.placement = scene.placement;  // the same for every board of the level

@@ -45,6 +45,9 @@ struct Reach {
 /// @param F_I_T scene wrench at the hard limit.
 Reach reach_of(const DeviceModel& device, const InstrumentMap& map, const Pose& X_TI, const Wrench& F_I_T);
 
+/// Worst of all stops of a board at the hard limit. @param map with its force_scale.
+Reach board_reach(const Exercise& exercise, const Board& board, const DeviceModel& device, const InstrumentMap& map);
+
 struct BoardReach {
   int board = 0;
   Reach worst;

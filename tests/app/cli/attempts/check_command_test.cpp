@@ -71,6 +71,52 @@ TEST(CheckText, AForceBeyondTheMotorsIsTheReasonGiven) {
   EXPECT_CONTAINS(said.out, "NOT sound: board 0: gravity and the hard limit ask more torque than a motor can give\n");
 }
 
+TEST(CheckPlayed, TheExpertPlaysEachPracticeBoardOnceAndNamesThoseThatHeDoesNotPass) {
+  const TemporaryFolder folder;
+  const char* kept = std::getenv("XDG_CACHE_HOME");
+  const std::string before = kept ? kept : "";
+  ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  std::string text = small_exercise();
+  CheckOptions options;
+  options.subjects = {folder.write("hasty.toml", text).string()};
+  options.unseen = 0;
+  options.levels = {"L1"};
+  options.play = true;
+  options.json = true;
+  std::ostringstream json, out, again, err;
+  EXPECT_EQ(check_command(options, json, err), 2);
+  const Json proofs = Json::parse(json.str());
+  ASSERT_EQ(proofs.size(), 1U) << "one level was asked for";
+  EXPECT_EQ(proofs[0].at("sound"), true) << "the device can; the time is short";
+  const Json played = proofs[0].at("played");
+  EXPECT_EQ(played.at("sound"), false);
+  EXPECT_EQ(played.at("why"), "board 0: the expert ended it timeout (and 19 more)");
+  EXPECT_EQ(played.at("boards").at(19).at("status"), "timeout");
+  const auto recordings = [&] {
+    std::set<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "trocar")) all.insert(entry.path());
+    return all;
+  };
+  EXPECT_EQ(recordings().size(), 20U);
+  text.replace(text.find("time_limit_s = 3"), 16, "time_limit_s = 60");
+  options.subjects = {folder.write("small.toml", text).string()};
+  options.json = false;
+  EXPECT_EQ(check_command(options, out, err), 0) << out.str() << err.str();
+  EXPECT_CONTAINS(out.str(), "  played by the expert on the simulated plant: 20 boards, ");
+  const auto made = recordings();
+  EXPECT_EQ(made.size(), 40U);
+  EXPECT_EQ(check_command(options, again, err), 0);
+  EXPECT_EQ(again.str(), out.str());
+  EXPECT_EQ(recordings(), made) << "what was played is kept";
+  options.levels = {"L7"};
+  EXPECT_EQ(check_command(options, json, err), 2);
+  EXPECT_CONTAINS(err.str(), "L7");
+  if (kept)
+    ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
+  else
+    ::unsetenv("XDG_CACHE_HOME");
+}
+
 TEST(CheckText, AnUnknownSubjectDoesNotHideTheNext) {
   const TemporaryFolder folder;
   const Said said = check({"surface-tuch", folder.write("small.toml", small_exercise()).string()});
