@@ -1,8 +1,10 @@
-// Whether bytes are text as UTF-8 has it (Unicode 15, table 3-7: no surrogates, no overlong forms). Pure. Thread: any.
+// Whether bytes are text as UTF-8 has it (Unicode 15, table 3-7: no surrogates, no overlong forms), and fit to be
+// shown. Pure. Thread: any.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace trocar {
@@ -35,5 +37,17 @@ inline std::optional<std::size_t> utf8_characters(std::string_view text) {
 }
 
 inline bool is_utf8(std::string_view text) { return utf8_characters(text).has_value(); }
+
+/// What would steer a terminal, or break the line, as "?" (C0, DEL and C1): text in a record, or from another program,
+/// may come from anybody.
+inline std::string harmless(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x20 || byte == 0x7F) text[i] = '?';
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) text[i] = text[i + 1] = '?';
+  }
+  return text;
+}
 
 }  // namespace trocar

@@ -5,21 +5,9 @@
 #include <cstdio>
 #include <ostream>
 
+#include "haptics/utf8.h"
+
 namespace trocar {
-namespace {
-
-/// What would steer a terminal, or break the line, as "?": names in a record may come from anybody.
-std::string harmless(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (byte < 0x20 || byte == 0x7F) text[i] = '?';
-    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) text[i] = text[i + 1] = '?';  // the same in UTF-8
-  }
-  return text;
-}
-
-}  // namespace
 
 void TextTable::print_row(std::ostream& out, const std::vector<std::string>& cells,
                           const std::vector<std::size_t>& widths) const {

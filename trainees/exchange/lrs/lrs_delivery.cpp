@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "trainees/exchange/lrs/delivery_record.h"
 #include "trainees/exchange/lrs/record_store.h"
 #include "trainees/records/demo_record.h"
@@ -29,9 +30,7 @@ struct Parcel {
 };
 
 std::string shown(const Answer& answer) {
-  std::string body = answer.body.substr(0, kShownBody);
-  std::replace_if(
-      body.begin(), body.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  const std::string body = harmless(answer.body.substr(0, kShownBody));
   return "HTTP " + std::to_string(answer.status) + (body.empty() ? "" : ": " + body);
 }
 
@@ -157,8 +156,10 @@ class Delivery {
   template <class Ask>
   Answer patiently(const Ask& ask) {
     for (milliseconds next = kFirstWait;; next = std::min(2 * next, kLongestWait)) {
+      const auto asked = std::chrono::steady_clock::now();
       Answer answer = ask();
       if (!passing(answer)) return answer;
+      waited_ += std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - asked);
       const std::string why = answer.status == 0 ? answer.failure : shown(answer);
       const milliseconds wait =
           std::max<milliseconds>(next, std::chrono::seconds(std::min(answer.retry_after_s, 3600L)));

@@ -124,6 +124,22 @@ TEST_F(LrsDelivery, GivesUpWhenThePatienceIsAtItsEndAndGoesOnFromThere) {
   EXPECT_EQ(store_.doubled(), 0);
 }
 
+TEST_F(LrsDelivery, WhatAStoreSaysSteersNoTerminal) {
+  store_.instead = [](int) { return "HTTP/1.1 404 None\r\nContent-Length: 9\r\n\r\n\x1b[2J\xc2\x9bOK\n"; };
+  const std::string told = message_of<InputError>([&] { deliver(); });
+  EXPECT_NE(told.find("HTTP 404: ?[2J??OK?"), std::string::npos) << told;
+}
+
+TEST_F(LrsDelivery, TheTimeThatAStoreTakesToFailCountsAsWaited) {
+  store_.instead = [](int) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return std::string("HTTP/1.1 502 Bad\r\nContent-Length: 0\r\n\r\n");
+  };
+  patience_ = std::chrono::seconds(2);
+  EXPECT_THROW(deliver(), EnvironmentError);
+  EXPECT_EQ(waits_, std::vector<long>{500}) << "0.6 s, 0.5 s waited, 0.6 s: not another second";
+}
+
 TEST_F(LrsDelivery, WhatIsRefusedIsNamedAndTheRestGoes) {
   Database database = this->database();
   store_.refuses = json::parse(xapi_statement(read_xapi_attempt(database, attempts_[4].row, {})))["id"];
