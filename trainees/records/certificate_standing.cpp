@@ -91,7 +91,8 @@ std::string words_of(const std::vector<Doubt>& doubts, const std::string& cited,
                                ? "the attempt that it cites was"
                                : std::to_string(doubts.size()) + " of the " + std::to_string(all) +
                                      " attempts that it stands on " + (doubts.size() == 1 ? "was" : "were");
-  return what + " decided not passed by " + told.printed + " on " + told.utc.substr(0, 10) + ": " + told.reason;
+  const std::string reason = told.reason.substr(0, told.reason.find_last_not_of('.') + 1);  // goes into sentences
+  return what + " decided not passed by " + told.printed + " on " + told.utc.substr(0, 10) + ": " + reason;
 }
 
 }  // namespace
