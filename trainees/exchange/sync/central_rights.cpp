@@ -86,6 +86,13 @@ constexpr Function kFunctions[] = {
      " RETURN NULL; END"},
 };
 
+// Who reads the digest of somebody's recording at the centre cannot bring an attempt of his own with it: it would be
+// that attempt's to send, and the recording's station could not. The row is left out, as one that may not be brought.
+constexpr Function kRecordedOnce = {
+    "recorded_once() RETURNS trigger LANGUAGE plpgsql",
+    "BEGIN IF NEW.recording_sha256 <> '' AND EXISTS (SELECT 1 FROM attempt a WHERE a.recording_sha256 ="
+    " NEW.recording_sha256 AND a.uuid <> NEW.uuid) THEN RETURN NULL; END IF; RETURN NEW; END"};
+
 std::string erase_body() {
   std::string body = "BEGIN ";
   for (const std::string& statement : central_erasing()) body += statement + "; ";
@@ -177,6 +184,14 @@ std::vector<Policy> policies() {
   return out;
 }
 
+void add_recorded_once(std::vector<std::string>& out) {
+  out.push_back(function_statement(kRecordedOnce.head, kRecordedOnce.body));
+  out.emplace_back("CREATE INDEX attempt_by_recording ON attempt (recording_sha256) WHERE recording_sha256 <> ''");
+  out.emplace_back(
+      "CREATE TRIGGER recorded_once BEFORE INSERT ON attempt FOR EACH ROW EXECUTE FUNCTION recorded_once()");
+  out.emplace_back("REVOKE EXECUTE ON FUNCTION recorded_once() FROM PUBLIC");
+}
+
 void say_login(const std::string& table, std::vector<std::string>& out) {
   out.push_back("ALTER TABLE " + table + " ADD COLUMN login text NOT NULL DEFAULT ''");
   out.push_back("ALTER TABLE " + table + " ALTER COLUMN login SET DEFAULT session_user");
@@ -225,6 +240,7 @@ std::vector<std::string> rights_statements() {
   out.emplace_back(
       "CREATE TRIGGER chained AFTER INSERT ON audit REFERENCING NEW TABLE AS fresh FOR EACH STATEMENT EXECUTE FUNCTION"
       " chained()");
+  add_recorded_once(out);
   out.emplace_back("REVOKE EXECUTE ON ALL FUNCTIONS IN SCHEMA trocar FROM PUBLIC");
   for (const Policy& policy : policies()) {
     for (std::string& statement : policy_statements(policy)) out.push_back(std::move(statement));
@@ -234,6 +250,7 @@ std::vector<std::string> rights_statements() {
 
 std::vector<std::string> rights_since_3() {
   std::vector<std::string> out{function_statement(kErase, erase_body())};
+  add_recorded_once(out);
   const auto& added = programme_tables();
   for (const std::string& table : added) say_login(table, out);
   for (const Policy& policy : policies()) {

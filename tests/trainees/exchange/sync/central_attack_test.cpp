@@ -197,6 +197,20 @@ TEST_F(CentralAttack, NamesNotesAndConsentsOfOtherStationsAreNotSeen) {
   }
 }
 
+TEST_F(CentralAttack, ARecordingStaysWithTheAttemptThatNamedItFirst) {
+  ask("UPDATE attempt SET recording_sha256 = repeat('a', 64) WHERE uuid = '" + attempt_ + "' RETURNING 1");
+  const std::string mine =
+      "INSERT INTO attempt (uuid, trainee_uuid, recording_sha256, station) SELECT"
+      " '01890000-0000-7000-8000-00000000000' || number, uuid, repeat(letter, 64), 'OWN' FROM"
+      " trainee, (VALUES ('1', 'a'), ('2', 'b')) v (number, letter) WHERE station = 'OWN'";
+  EXPECT_EQ(attack(filled(mine)), "");
+  EXPECT_EQ(ask("SELECT recording_sha256 FROM attempt WHERE uuid LIKE '01890000%'"), Lines{std::string(64, 'b')});
+  EXPECT_NE(
+      attack(filled("INSERT INTO recording (sha256, attempt_uuid, bytes, chunks, station) VALUES (repeat('a', 64),"
+                    " '01890000-0000-7000-8000-000000000001', 1, 1, 'OWN')")),
+      "");
+}
+
 TEST_F(CentralAttack, AnErasureOfOnesOwnTakesNobodyElsesWords) {
   Database north = station("north");
   const Account own = AccountStore(north).add("nora", "Nora North", Role::kTrainee, "T-north", "580274", "");

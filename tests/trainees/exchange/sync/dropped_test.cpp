@@ -278,7 +278,9 @@ TEST_F(Stations, AnotherDatabaseOfTheServerIsAnotherCentre) {
 
 /// Takes from a centre what version 4 added, and those before it.
 constexpr const char* kBackToVersion3 =
-    "DROP TABLE trocar.withdrawal, trocar.assignment, trocar.standing; ALTER POLICY sees ON trocar.note USING (true);"
+    "DROP TRIGGER recorded_once ON trocar.attempt; DROP FUNCTION trocar.recorded_once; DROP INDEX"
+    " trocar.attempt_by_recording; DROP TABLE trocar.withdrawal, trocar.assignment, trocar.standing; ALTER POLICY sees "
+    "ON trocar.note USING (true);"
     " UPDATE trocar.central SET version = 3";
 constexpr const char* kBackToVersion2 =
     "DO $$ DECLARE t text; BEGIN DROP TRIGGER chained ON trocar.audit; FOR t IN SELECT tablename FROM pg_tables WHERE "
