@@ -196,13 +196,13 @@ LabelMap assembled(const Header& header, const SegmentationFrames& frames, const
   SegmentLayers layers(grid.size(), grid.ras_frame(), file.name);
   std::vector<std::string> notes;
   double done = 0;
-  for (const SegmentationFrames::Named& segment : frames.segments) {
+  for (const Segment& segment : frames.segments) {
     report(progress, "segments", done++ / static_cast<double>(frames.segments.size()));
     const SegmentMask mask = mask_of(segment.number, header, frames, grid);
     if (mask.empty())
-      notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.label +
+      notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.name +
                       ") marks no voxel and was left out.");
-    layers.add(segment.number, segment.label, mask);
+    layers.add(segment, mask);
   }
   LabelMap map = layers.take();
   if (map.layers.empty()) refuse(file, "marks no voxel at all");

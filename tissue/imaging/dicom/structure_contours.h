@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tissue/imaging/dicom/dicom_study.h"
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/progress.h"
 
 namespace trocar {
@@ -19,8 +20,10 @@ using Contour = std::vector<Eigen::Vector3d>;
 struct Structure {
   int number = 0;
   std::string name;
-  std::vector<Contour> closed;  ///< CLOSED_PLANAR and CLOSEDPLANAR_XOR, three points at least, finite
-  int others = 0;               ///< points, open lines, contours of fewer than three points
+  std::optional<SegmentColour> colour = {};
+  std::vector<SegmentCode> codes = {};
+  std::vector<Contour> closed = {};  ///< CLOSED_PLANAR and CLOSEDPLANAR_XOR, three points at least, finite
+  int others = 0;                    ///< points, open lines, contours of fewer than three points
 };
 
 /// By number; structures without any contour are among them.

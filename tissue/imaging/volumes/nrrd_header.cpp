@@ -298,7 +298,7 @@ VolumeHeader nrrd_volume_header(const fs::path& path, const VolumeReading& readi
   volume.components = static_cast<int>(components);
   volume.component_axis = axes.component_axis;
   read_nrrd_frame(header, axes, reading, volume);
-  volume.segments = nrrd_segments(header, volume.components);
+  volume.segments = nrrd_segments(header, volume.components, volume.notes);
   volume.segmentation = !volume.segments.empty();
   volume.block = voxel_block(header, path);
   return volume;

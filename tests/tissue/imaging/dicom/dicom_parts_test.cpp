@@ -174,11 +174,11 @@ TEST(SegmentLayers, TheFirstFreeLayerIsTaken) {
     for (const std::size_t n : voxels) one.voxels[n] = true, one.mark_slice(static_cast<int>(n / 4));
     return one;
   };
-  layers.add(1, "a", mask({0, 1}));
-  layers.add(2, "b", mask({1, 5}));
-  layers.add(3, "c", mask({2, 11}));
-  layers.add(4, "d", mask({0, 8}));
-  layers.add(5, "e", mask({}));
+  layers.add({0, 1, "a"}, mask({0, 1}));
+  layers.add({0, 2, "b"}, mask({1, 5}));
+  layers.add({0, 3, "c"}, mask({2, 11}));
+  layers.add({0, 4, "d"}, mask({0, 8}));
+  layers.add({0, 5, "e"}, mask({}));
   const LabelMap map = layers.take();
   ASSERT_EQ(map.layers.size(), 2U);
   ASSERT_EQ(map.segments.size(), 4U);
