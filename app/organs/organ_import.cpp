@@ -390,7 +390,7 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
     err << "note: the image ends inside these, their flat cap is not anatomy: " << ended << "\n";
   std::vector<std::string> notes;
   for (const CompiledMember& organ : written.organs) append(notes, untold(organ.manifest.decisions, notes));
-  append(notes, written.notes);
+  append(notes, untold(written.notes, notes));
   for (std::size_t n = 0; n < std::min(notes.size(), kNotes); ++n) err << "note: " << notes[n] << "\n";
   if (notes.size() > kNotes)
     err << "note: and " << notes.size() - kNotes << " more, which the page and the manifests have\n";

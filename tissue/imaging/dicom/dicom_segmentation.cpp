@@ -48,6 +48,8 @@ void read_coding(Header& header, const DicomItem& data, const DicomInstance& fil
   const std::uint32_t bits = data.whole(tag::kBitsAllocated).value_or(0);
   const std::string type = data.text(tag::kSegmentationType);
   header.fractional = type == "FRACTIONAL";
+  if (type == "LABELMAP")
+    refuse(file, "is a segmentation of the kind LABELMAP, which is not read: export it as BINARY, or as NIfTI or NRRD");
   if (type != "BINARY" && !header.fractional) refuse(file, "is neither a binary nor a fractional segmentation");
   if (bits != (header.fractional ? 8U : 1U))
     refuse(file, "stores " + std::to_string(bits) + " bits a pixel, which does not fit its kind");

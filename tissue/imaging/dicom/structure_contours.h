@@ -20,10 +20,10 @@ using Contour = std::vector<Eigen::Vector3d>;
 struct Structure {
   int number = 0;
   std::string name;
+  std::vector<Contour> closed;  ///< CLOSED_PLANAR and CLOSEDPLANAR_XOR, three points at least, finite
+  int others = 0;               ///< points, open lines, contours of fewer than three points
   std::optional<SegmentColour> colour = {};
   std::vector<SegmentCode> codes = {};
-  std::vector<Contour> closed = {};  ///< CLOSED_PLANAR and CLOSEDPLANAR_XOR, three points at least, finite
-  int others = 0;                    ///< points, open lines, contours of fewer than three points
 };
 
 /// By number; structures without any contour are among them.

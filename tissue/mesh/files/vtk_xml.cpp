@@ -276,16 +276,6 @@ void shift_tetrahedra(FileTetrahedra& mesh, std::size_t first, const TriangleSur
   mesh.vertices.insert(mesh.vertices.end(), piece.vertices.begin(), piece.vertices.end());
 }
 
-/// The field "SPACE" of 3D Slicer. Axes that it names and nobody knows are no reason to take others.
-void take_space(const std::string& letters, SurfaceFile& result, const std::string& file) {
-  if (letters != "RAS" && letters != "LPS")
-    throw InputError(file + ": its field SPACE says \"" + printable(letters) +
-                     "\", where 3D Slicer writes RAS or LPS: say what x, y and z point at with --frame, in a file "
-                     "without that field");
-  result.frame = letters;
-  result.frame_source = "the field SPACE says " + letters + ", as 3D Slicer writes it";
-}
-
 }  // namespace
 
 SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file) {

@@ -46,13 +46,30 @@ TEST(DicomElements, OnlyListedElementsAreKept) {
   slice.change = [](Elements& data) {
     data.text(0x00100010, "PN", "A^B").text(0x00100020, "LO", "1").text(0x00081030, "LO", "text");
   };
-  const std::set<DicomTag> allowed{
-      tag::kTransferSyntax, tag::kImageType,   tag::kSopClass,         tag::kSopInstance,
-      tag::kModality,       tag::kStudy,       tag::kSeries,           tag::kSeriesNumber,
-      tag::kPosition,       tag::kOrientation, tag::kFrameOfReference, tag::kSamples,
-      tag::kPhotometric,    tag::kRows,        tag::kColumns,          tag::kPixelSpacing,
-      tag::kBitsAllocated,  tag::kBitsStored,  tag::kHighBit,          tag::kPixelRepresentation,
-      tag::kIntercept,      tag::kSlope};
+  const std::set<DicomTag> allowed{tag::kTransferSyntax,
+                                   tag::kImageType,
+                                   tag::kSopClass,
+                                   tag::kSopInstance,
+                                   tag::kModality,
+                                   tag::kStudy,
+                                   tag::kSeries,
+                                   tag::kSeriesNumber,
+                                   tag::kPosition,
+                                   tag::kOrientation,
+                                   tag::kFrameOfReference,
+                                   tag::kSamples,
+                                   tag::kPhotometric,
+                                   tag::kRows,
+                                   tag::kColumns,
+                                   tag::kPixelSpacing,
+                                   tag::kBitsAllocated,
+                                   tag::kBitsStored,
+                                   tag::kHighBit,
+                                   tag::kPixelRepresentation,
+                                   tag::kIntercept,
+                                   tag::kSlope,
+                                   tag::kEcho,
+                                   tag::kAcquisition};
   for (const auto& [tag, element] : parsed(folder, slice.file()).data.elements)
     EXPECT_TRUE(allowed.contains(tag)) << std::hex << tag;
 }
