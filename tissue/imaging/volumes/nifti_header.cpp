@@ -126,15 +126,15 @@ double largest_corner_shift(const NiftiHeader& header, const Eigen::Affine3d& ot
 }
 
 void read_nifti_frame(const NiftiFields& fields, const std::string& file, NiftiHeader& header) {
+  const int unit = fields.units & 7;
+  if (unit == 0) header.notes.push_back("xyzt_units says no unit; millimetres assumed");
+  if (unit == 1 || unit == 3)
+    refuse_header(file, "xyzt_units", "lengths in metres or micrometres; millimetres are wanted");
   const Eigen::Vector3d pixdim = read_pixdim(fields, file);
   const int qform = fields.qform, sform = fields.sform;
   if (qform < 0 || qform > 5 || sform < 0 || sform > 5) refuse_header(file, "qform_code/sform_code", "unknown code");
   if (qform == 0 && sform == 0)
     refuse_header(file, "qform_code/sform_code", "both 0: the file does not say where left and right are");
-  const int unit = fields.units & 7;
-  if (unit == 0) header.notes.push_back("xyzt_units says no unit; millimetres assumed");
-  if (unit == 1 || unit == 3)
-    refuse_header(file, "xyzt_units", "lengths in metres or micrometres; millimetres are wanted");
   header.index_to_ras_mm = sform > 0 ? sform_of(fields) : qform_of(fields, pixdim);
   header.frame_source = sform > 0 ? "sform " + std::to_string(sform) : "qform " + std::to_string(qform);
   check_frame(header.index_to_ras_mm, sform > 0 ? "srow" : "quatern", file, "", header.notes);
