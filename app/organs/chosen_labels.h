@@ -1,7 +1,6 @@
 // Which labels of a map the user means, with their names: by the file's own names, a table that was named, or a number.
 //
-// A bare number is never given a name from a table that nobody named, except where every built-in table that could have
-// numbered the map agrees on it ("5 liver"); that is said. Thread: any.
+// A bare number is never given a name from a table that nobody named. Thread: any.
 #pragma once
 
 #include <string>
@@ -17,7 +16,8 @@ struct ChosenLabel {
   std::string table;  ///< that gave the name; "" when the file did, or nothing
 };
 
-/// @param file of the map, for messages. @param decisions what was assumed, as sentences
+/// --name takes the label that the file calls so, where --label says nothing.
+/// @param file of the map, for messages. @param decisions what was left out, as sentences
 /// @throws InputError naming file and option: unknown or ambiguous label, table that does not exist
 std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const LabelMap& map, const std::string& file,
                                        std::vector<std::string>& decisions);

@@ -16,6 +16,7 @@ namespace {
 /// What is typed, before it becomes options.
 struct ImportArguments {
   OrganImportOptions import;
+  std::vector<std::string> inputs;
   std::vector<double> window, seed;
   double fill_holes_mm = -1;
   int series = 0;
@@ -23,6 +24,8 @@ struct ImportArguments {
 
 int run_import(ImportArguments& c) {
   OrganImportOptions options = c.import;
+  options.input = c.inputs.front();
+  options.more_inputs.assign(c.inputs.begin() + 1, c.inputs.end());
   if (!c.window.empty()) options.threshold.window = {c.window[0], c.window[1]};
   if (!c.seed.empty()) options.threshold.seed_mm = {c.seed[0], c.seed[1], c.seed[2]};
   if (c.fill_holes_mm >= 0) options.surface.fill_holes_mm = c.fill_holes_mm;
@@ -37,7 +40,9 @@ int run_import(ImportArguments& c) {
 
 void add_label_options(ImportArguments& c, CLI::App& import) {
   const char* group = "Labels";
-  import.add_option("--labels", c.import.labels, "Label map, DICOM SEG or RTSTRUCT of the image INPUT")->group(group);
+  import
+      .add_option("--labels", c.import.labels, "Label map, folder of masks, DICOM SEG or RTSTRUCT of the image INPUT")
+      ->group(group);
   import
       .add_option("--label", c.import.label,
                   "Label number, name, or LAYER:NUMBER where segments overlap; several make a scene (--label "
@@ -108,7 +113,8 @@ void add_organ_import(CLI::App& parent, CommandAction& chosen) {
   CLI::App* import =
       add_command(parent, "import", "An organ, or a scene of organs, from CT, MR, label maps or surfaces", chosen,
                   [given] { return run_import(*given); });
-  import->add_option("input", c.import.input, kInputForms)->required();
+  import->add_option("input", c.inputs, std::string(kInputForms) + "; several masks or surfaces make one scene")
+      ->required();
   import->add_option("-o,--output", c.import.output, "NAME of the organ files")->required()->check(writable_path());
   import->add_option("--triangles", c.import.triangles, "Triangles aimed at, each organ")->capture_default_str();
   import->add_option("--report", c.import.report, "Page with pictures and figures (HTML)")->check(writable_path());
@@ -116,8 +122,9 @@ void add_organ_import(CLI::App& parent, CommandAction& chosen) {
       ->check(CLI::Range(1.0, 100.0));
   import->add_option("--tetrahedra", c.import.tetrahedra_mm, "Also tetrahedra of this size, mm")
       ->check(CLI::Range(1.0, 100.0));
-  import->add_option("--name", c.import.name, "Name of the organ or the scene");
-  import->add_option("--material", c.import.material, "Material name (default: by the organ's name)");
+  import->add_option("--name", c.import.name, "Name of the organ or the scene; takes the label or file of that name");
+  import->add_option("--material", c.import.material,
+                     "Material (default: by the organ's name); in a scene of the labels without a name");
   import->add_option("--modality", c.import.modality, "CT or MR");
   import->add_option("--licence", c.import.licence,
                      "Licence of the source; unknown when not given, and then it cannot be packaged");

@@ -33,11 +33,12 @@ struct SurfaceChoices {
 
 /// What `organ import` and `organ inspect` read, for their help.
 constexpr const char* kInputForms =
-    "Label map or image (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd), DICOM folder, zip, DICOMDIR or file, or surface "
-    "(.stl .ply .obj .off .glb .gltf .fbx .vtk .vtp .vtu .msh)";
+    "Label map or image (.nii .nii.gz .nrrd .seg.nrrd .mha .mhd), DICOM folder, zip, DICOMDIR or file, surface (.stl "
+    ".ply .obj .off .glb .gltf .fbx .vtk .vtp .vtu .msh), or a folder or zip of one mask or surface an organ";
 
 struct OrganImportOptions {
-  std::string input;   ///< volume, label map, DICOM folder, zip or file, or surface
+  std::string input;  ///< volume, label map, DICOM folder, zip or file, surface, or folder or zip of one file an organ
+  std::vector<std::string> more_inputs;  ///< further masks, or further surfaces, of the same scene
   std::string labels;  ///< label map, SEG or RTSTRUCT that goes with the image `input`; "" when `input` is one
   std::vector<std::string> label;  ///< numbers or names; several make a scene; none when the map holds one label only
   bool all = false;                ///< every label of the map, as a scene
@@ -57,7 +58,7 @@ struct OrganImportOptions {
   std::string name;  ///< default: the label's name, or the stem of the file
   std::string licence = "unknown";
   std::string credit;
-  std::string material;    ///< default: by the name
+  std::string material;    ///< default: by the name; in a scene: of the labels without a name
   std::string modality;    ///< "CT", "MR"; default: what the files tell, else guessed, else "unknown"
   bool synthetic = false;  ///< set for our own phantom
   Progress progress = {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/organs/organ_files.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_reader.h"
@@ -18,14 +19,6 @@ namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "liver" from "dir/liver.nii.gz".
-std::string plain_stem(const fs::path& path) {
-  const std::string file = path.filename().string();
-  for (const std::string_view suffix : {".nii.gz", ".seg.nrrd"})
-    if (file.ends_with(suffix)) return file.substr(0, file.size() - suffix.size());
-  return path.stem().string();
-}
 
 std::size_t count_of(const std::vector<DicomSeries>& series, DicomKind kind) {
   return static_cast<std::size_t>(
@@ -58,7 +51,7 @@ void require_labels(const std::string& input, const std::vector<DicomSeries>& se
 
 /// Labels of a DICOM input: a segmentation or a structure set, on the grid of the image when there is one.
 LabelMap read_dicom_labels(const DicomStudy& study, std::optional<int> number, const std::optional<ImageVolume>& image,
-                           const Progress& progress) {
+                           const std::vector<std::string>& wanted, const Progress& progress) {
   const std::vector<DicomSeries> series = study.series();
   const auto holds = [&](DicomKind kind) {
     return std::any_of(series.begin(), series.end(),
@@ -66,7 +59,8 @@ LabelMap read_dicom_labels(const DicomStudy& study, std::optional<int> number, c
   };
   if (holds(DicomKind::kSegmentation)) return read_dicom_segmentation(study, progress, number);
   if (holds(DicomKind::kStructureSet))
-    return image ? read_rtstruct(study, *image, progress, number) : read_rtstruct(study, progress, number);
+    return image ? read_rtstruct(study, *image, progress, number, wanted)
+                 : read_rtstruct(study, progress, number, wanted);
   throw InputError(study.path().string() + ": series " + std::to_string(number.value_or(0)) + " holds no labels" +
                    listed(series));
 }
@@ -91,8 +85,34 @@ std::optional<ImageVolume> images_beside(const DicomStudy& study, const Progress
   return read_dicom_series(study, images->number, progress);
 }
 
+/// Labels that are asked for by --label, or by --name alone.
+std::vector<std::string> wanted_words(const OrganImportOptions& options) {
+  if (!options.label.empty() || options.all) return options.label;
+  return options.name.empty() ? std::vector<std::string>{} : std::vector<std::string>{options.name};
+}
+
+/// One mask an organ, in files of their own. --name takes one of them where a file is called so; otherwise it names the
+/// scene.
+bool read_masks(const OrganImportOptions& options, ImportSource& source) {
+  std::vector<std::string> inputs{source.file};
+  if (options.labels.empty()) inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
+  const std::optional<OrganFiles> files = organ_files(inputs, options.progress);
+  if (!files || files->volumes.empty()) return false;
+  std::vector<std::string> wanted = wanted_words(options);
+  const bool file_of_name = std::any_of(files->volumes.begin(), files->volumes.end(), [&](const OrganFile& file) {
+    return folded_name(file.name) == folded_name(options.name);
+  });
+  if (options.label.empty() && !file_of_name) wanted.clear();
+  CombinedMasks masks = combined_masks(*files, wanted, reading_of(options), options.progress);
+  source.map = std::move(masks.map);
+  source.origin = std::move(masks.origin);
+  if (!source.image) source.image = std::move(masks.image);
+  return true;
+}
+
 /// The labels of the file that holds them, and the images beside them in a DICOM input that was given alone.
 void read_labels(const OrganImportOptions& options, ImportSource& source) {
+  if (read_masks(options, source)) return;
   if (is_volume_file(source.file)) {
     source.map = read_label_map(source.file, options.progress, reading_of(options));
     return;
@@ -100,8 +120,8 @@ void read_labels(const OrganImportOptions& options, ImportSource& source) {
   const DicomStudy study(source.file, options.progress);
   require_labels(source.file, study.series());
   if (!source.image && !is_volume_file(options.input)) source.image = images_beside(study, options.progress);
-  source.map =
-      read_dicom_labels(study, options.labels.empty() ? options.series : std::nullopt, source.image, options.progress);
+  source.map = read_dicom_labels(study, options.labels.empty() ? options.series : std::nullopt, source.image,
+                                 wanted_words(options), options.progress);
 }
 
 LabelMap segmented(const OrganImportOptions& options, const ImageVolume& image) {
@@ -150,12 +170,20 @@ void tell_origin(const OrganImportOptions& options, ImportSource& source) {
 
 void check_source_options(const OrganImportOptions& options) {
   std::error_code missing;
-  for (const std::string& file : {options.input, options.labels})
+  std::vector<std::string> inputs = options.more_inputs;
+  inputs.insert(inputs.end(), {options.input, options.labels});
+  for (const std::string& file : inputs)
     if (!file.empty() && !fs::exists(file, missing)) throw InputError(file + ": no such file or folder");
+  if (!options.more_inputs.empty() && (!options.labels.empty() || options.threshold.window))
+    throw InputError("--labels and --threshold go with one image; of several inputs each is a mask or a surface");
   const ThresholdOptions& asked = options.threshold;
   const bool by_window = asked.window.has_value();
   if (by_window && (!options.label.empty() || options.all))
     throw InputError("--threshold makes one label; it does not go with --label or --all");
+  if (by_window && !options.label_table.empty())
+    throw InputError(
+        "--threshold marks values, which no table numbered: it does not go with --label-table (--name says what it "
+        "is)");
   if (!by_window &&
       (asked.seed_mm || asked.reach_mm > 0 || asked.opening_mm > 0 || asked.closing_mm > 0 || asked.smooth))
     throw InputError("--seed-point, --reach, --opening, --closing and --smooth go with --threshold LOW HIGH");
@@ -167,7 +195,7 @@ void check_source_options(const OrganImportOptions& options) {
 }  // namespace
 
 bool is_surface_input(const OrganImportOptions& options) {
-  return !fs::is_directory(options.input) && is_surface_file(options.input);
+  return !fs::is_directory(options.input) && is_surface_file(options.input) && options.more_inputs.empty();
 }
 
 std::string hash_of_input(const std::string& input) {

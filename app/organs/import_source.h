@@ -5,6 +5,7 @@
 // folders are often named after patients.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct ImportSource {
   LabelMap map;
   std::vector<LabelVolume> on_image;  ///< the map's layers on the image's grid, when their own is another; else empty
   OrganSource source;                 ///< file, sha256, modality, unit; the label is filled in later
+  std::map<int, OrganSource> origin;  ///< of a label, by its number, where each has a file of its own; else empty
   std::string file;                   ///< of the label map, as the user named it, for messages
   std::string stem;                   ///< default name of an organ
 };

@@ -6,6 +6,8 @@
 
 #include "app/organs/chosen_labels.h"
 #include "app/organs/import_source.h"
+#include "app/organs/organ_files.h"
+#include "app/organs/organ_naming.h"
 #include "app/organs/organ_page.h"
 #include "app/organs/organ_report.h"
 #include "app/organs/replaced_files.h"
@@ -15,6 +17,7 @@
 #include "haptics/utf8.h"
 #include "tissue/imaging/labels/label_table_file.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
+#include "tissue/imaging/volumes/volume_reader.h"
 #include "tissue/organ/mesh_alone.h"
 #include "tissue/organ/organ_compiler.h"
 #include "tissue/organ/scene_compiler.h"
@@ -64,22 +67,33 @@ OrganManifest common_manifest(const OrganImportOptions& options, const OrganSour
 
 OrganManifest label_manifest(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label) {
   OrganManifest manifest = common_manifest(options, source.source);
-  manifest.source.label = label.segment.number;
-  manifest.source.label_name = is_utf8(label.segment.name) ? label.segment.name : file_name_of(label.segment);
-  manifest.source.label_table = label.table;
+  OrganSource& origin = manifest.source;
+  if (const auto own = source.origin.find(label.segment.number); own != source.origin.end()) {
+    origin = own->second;
+    origin.modality = source.source.modality;
+  } else {
+    origin.label = label.segment.number;
+  }
+  origin.label_name = is_utf8(label.segment.name) ? label.segment.name : file_name_of(label.segment);
+  origin.label_table = label.table;
+  origin.colour = label.segment.colour;
+  for (const SegmentCode& code : label.segment.codes)
+    if (is_utf8(code.scheme + code.value))
+      origin.codes.push_back({code.role, code.scheme, code.value, is_utf8(code.meaning) ? code.meaning : ""});
   return manifest;
 }
 
-void name_organ(const OrganImportOptions& options, const std::string& by_default, OrganManifest& manifest) {
-  manifest.name = options.name.empty() ? by_default : options.name;
-  manifest.material = options.material.empty() ? manifest.name : options.material;
+void name_organ(const OrganNaming& naming, OrganManifest& manifest) {
+  manifest.name = naming.name;
+  manifest.material = naming.material;
 }
 
 WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
-                           const std::vector<std::string>& decisions, const fs::path& stem) {
+                           std::vector<std::string> decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
-  const bool nameless = label.segment.name.empty() && source.map.segments.size() == 1;
-  name_organ(options, nameless ? source.stem : file_name_of(label.segment), manifest);
+  const OrganNaming naming = name_labels(options, {label}, source.map, source.stem, source.file, false).front();
+  name_organ(naming, manifest);
+  decisions.insert(decisions.begin(), naming.decisions.begin(), naming.decisions.end());
   const LabelVolume& layer = source.map.layers[label.segment.layer];
   const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress};
   CompiledOrgan organ = compile_label(layer, label.segment.number, how);
@@ -108,25 +122,33 @@ SurfaceImportOptions surface_options(const OrganImportOptions& options) {
   return how;
 }
 
-WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::path& stem) {
-  const fs::path path = options.input;
-  if (!options.labels.empty() || !options.label.empty() || options.all || options.threshold.window)
-    throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
-  const ImportedSurface source = import_surface(path, surface_options(options), options.progress);
+/// One surface of another program as an organ. @param stem of its files; what they are goes into `files`
+CompiledMember surface_member(const OrganImportOptions& options, const fs::path& path, const OrganNaming& naming,
+                              const fs::path& stem, std::vector<SideFile>& files) {
+  SurfaceImportOptions how = surface_options(options);
+  if (how.organ.empty()) how.organ = naming.name;
+  const ImportedSurface source = import_surface(path, how, options.progress);
   const OrganSource origin{path.filename().string(), digest::of_file(path), "surface", source.unit, {}, "", ""};
   OrganManifest manifest = common_manifest(options, origin);
-  name_organ(options, options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part}),
-             manifest);
+  name_organ(naming, manifest);
   manifest.decisions = source.decisions;
+  append(manifest.decisions, naming.decisions);
   append(manifest.decisions, source.warnings);
   CompiledOrgan organ = compile_surface(source.surface, {options.triangles, {}, options.progress});
   organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
   for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
   manifest.mesh = std::move(organ.facts);
-  std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {}, manifest);
+  for (SideFile& file : volume_meshes(options, stem, organ.surface, {}, manifest)) files.push_back(std::move(file));
+  return {std::move(manifest), std::move(organ.surface)};
+}
+
+WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::path& path, const fs::path& stem) {
+  if (!options.labels.empty() || !options.label.empty() || options.all || options.threshold.window)
+    throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
+  const std::string by_default =
+      options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part});
   WrittenOrgans written;
-  written.organs.push_back({std::move(manifest), std::move(organ.surface)});
-  written.files = std::move(files);
+  written.organs.push_back(surface_member(options, path, name_surface(options, by_default), stem, written.files));
   return written;
 }
 
@@ -192,10 +214,11 @@ OrganSet set_of(const OrganImportOptions& options, const LabelMap& map, const Co
 
 /// One organ of a scene, with its files.
 CompiledMember member_of(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label,
-                         CompiledOrgan&& organ, const std::vector<std::string>& decisions, const fs::path& stem,
-                         std::vector<SideFile>& files) {
+                         const OrganNaming& naming, CompiledOrgan&& organ, std::vector<std::string> decisions,
+                         const fs::path& stem, std::vector<SideFile>& files) {
   OrganManifest manifest = label_manifest(options, source, label);
-  manifest.name = manifest.material = file_name_of(label.segment);
+  name_organ(naming, manifest);
+  decisions.insert(decisions.begin(), naming.decisions.begin(), naming.decisions.end());
   manifest.mesh = std::move(organ.facts);
   manifest.decisions = untold(decisions, manifest.mesh.repairs);
   const fs::path member = member_stem(stem, manifest.name);
@@ -209,8 +232,7 @@ CompiledMember member_of(const OrganImportOptions& options, const ImportSource& 
 WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& source,
                            const std::vector<ChosenLabel>& labels, const std::vector<std::string>& decisions,
                            const fs::path& stem) {
-  if (!options.material.empty())
-    throw InputError("--material goes with one organ; those of a scene have theirs by name");
+  const std::vector<OrganNaming> names = name_labels(options, labels, source.map, source.stem, source.file, true);
   const std::vector<SceneRequest> requests = requests_of(options, labels);
   const SceneOptions how{{.only_largest = options.largest_only}, options.progress};
   CompiledScene scene = compile_scene(source.map, requests, how);
@@ -218,7 +240,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   WrittenOrgans written;
   for (std::size_t n = 0; n < labels.size(); ++n)
     written.organs.push_back(
-        member_of(options, source, labels[n], std::move(scene.organs[n]), decisions, stem, written.files));
+        member_of(options, source, labels[n], names[n], std::move(scene.organs[n]), decisions, stem, written.files));
   written.set = set_of(options, source.map, scene, written.organs);
   written.set->name = options.name.empty() ? stem.filename().string() : options.name;
   written.values = values_of(options, source, labels);
@@ -226,6 +248,40 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   written.labels = std::move(source.map);
   written.notes = std::move(scene.notes);
   return written;
+}
+
+/// Several surfaces as one scene, each called like its file. What lies against what is not looked for.
+WrittenOrgans import_surface_scene(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
+  if (!options.labels.empty() || options.threshold.window || !options.surface.part.empty())
+    throw InputError("--labels, --threshold and --part do not go with several surfaces");
+  const std::vector<OrganFile> chosen = files.chosen(files.surfaces, options.label);
+  WrittenOrgans written;
+  std::set<std::string> names;
+  for (const OrganFile& file : chosen) {
+    OrganImportOptions one = options;
+    one.name = file_name_of({0, 0, file.name});
+    if (!names.insert(one.name).second)
+      throw InputError(file.path.string() + ": another file is called \"" + one.name + "\" too: rename one of them");
+    written.organs.push_back(
+        surface_member(one, file.path, name_surface(one, one.name), member_stem(stem, one.name), written.files));
+  }
+  OrganSet set;
+  set.name = options.name.empty() ? stem.filename().string() : options.name;
+  set.subject = subject_of(options, written.organs);
+  written.set = std::move(set);
+  return written;
+}
+
+/// The surfaces of a folder, a zip or a list: one where --label or --name asks for one, else a scene.
+WrittenOrgans import_surfaces(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
+  OrganImportOptions asked = options;
+  const auto is_name = [&](const OrganFile& file) { return folded_name(file.name) == folded_name(options.name); };
+  if (asked.label.empty() && std::any_of(files.surfaces.begin(), files.surfaces.end(), is_name))
+    asked.label = {options.name};
+  const std::vector<OrganFile> chosen = files.chosen(files.surfaces, asked.label);
+  if (chosen.size() > 1 || options.output.ends_with(kOrganSetSuffix)) return import_surface_scene(asked, files, stem);
+  asked.label.clear(), asked.all = false;
+  return import_surface_file(asked, chosen.front().path, stem);
 }
 
 /// Organ files are TOML, which is UTF-8: a name in another encoding could be written and never read again.
@@ -236,7 +292,9 @@ void check_texts(const OrganImportOptions& options) {
     if (!is_utf8(*text))
       throw InputError(std::string(option) +
                        ": the text is not UTF-8, which organ files are written in: use UTF-8 or plain letters");
-  for (const std::string& file : {options.input, options.labels})
+  std::vector<std::string> inputs = options.more_inputs;
+  inputs.insert(inputs.end(), {options.input, options.labels});
+  for (const std::string& file : inputs)
     if (!is_utf8(fs::path(file).filename().string()))
       throw InputError("an input's file name is not UTF-8, and organ files record it: rename the file (" +
                        fs::path(file).extension().string() + ")");
@@ -266,9 +324,12 @@ fs::path stem_of(const std::string& output) {
 /// Two names of one file: the surface would replace what it was made from.
 void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
   std::error_code missing;
+  std::vector<std::string> inputs = options.more_inputs;
+  inputs.push_back(options.input);
   for (const std::string& suffix : {std::string(".ply"), std::string(".lattice"), std::string(".msh")})
-    if (fs::equivalent(stem.string() + suffix, options.input, missing))
-      throw InputError("-o " + options.output + ": would overwrite its input " + options.input);
+    for (const std::string& input : inputs)
+      if (fs::equivalent(stem.string() + suffix, input, missing))
+        throw InputError("-o " + options.output + ": would overwrite its input " + input);
 }
 
 /// The page is made before anything is written, and written with the rest.
@@ -301,22 +362,64 @@ void write(const OrganImportOptions& options, WrittenOrgans& written) {
       remove_replaced(manifest, before, files_named_by(manifest), {options.input, options.labels, options.report});
 }
 
-void remark(const WrittenOrgans& written, std::ostream& err) {
+/// "liver in 4 places, spleen in 2 places" of the organs that have the fact; "" for none.
+template <typename Fact>
+std::string told_of(const WrittenOrgans& written, const Fact& fact) {
+  constexpr std::size_t kListed = 6;
+  std::string text;
+  std::size_t count = 0;
   for (const CompiledMember& organ : written.organs) {
-    const MeshFacts& mesh = organ.manifest.mesh;
-    for (const std::string& decision : organ.manifest.decisions) {
-      if (&organ == &written.organs.front()) err << "note: " << decision << "\n";
-    }
-    if (mesh.self_intersections > 0)
-      err << "warning: " << organ.manifest.name << ": the surface cuts itself in " << mesh.self_intersections
-          << " places; try another --triangles\n";
-    if (mesh.cut_at_border())
-      err << "note: " << organ.manifest.name
-          << " is cut at the volume border: the image ends inside it, the flat cap is not anatomy\n";
+    const std::optional<std::string> words = fact(organ.manifest.mesh);
+    if (!words || ++count > kListed) continue;
+    text += (text.empty() ? "" : ", ") + organ.manifest.name + *words;
   }
-  for (const std::string& note : written.notes) err << "note: " << note << "\n";
+  return count > kListed ? text + " and " + std::to_string(count - kListed) + " more" : text;
+}
+
+/// Warnings, and the first of what was decided; the manifests and the page have everything.
+void remark(const WrittenOrgans& written, std::ostream& err) {
+  constexpr std::size_t kNotes = 4;
+  using Words = std::optional<std::string>;
+  const std::string cut = told_of(written, [](const MeshFacts& mesh) {
+    return mesh.self_intersections == 0 ? Words() : " in " + std::to_string(mesh.self_intersections) + " places";
+  });
+  if (!cut.empty()) err << "warning: the surface cuts itself: " << cut << "; try another --triangles\n";
+  const std::string ended =
+      told_of(written, [](const MeshFacts& mesh) { return mesh.cut_at_border() ? Words("") : Words(); });
+  if (!ended.empty() && written.organs.size() > 1)
+    err << "note: the image ends inside these, their flat cap is not anatomy: " << ended << "\n";
+  std::vector<std::string> notes;
+  for (const CompiledMember& organ : written.organs) append(notes, untold(organ.manifest.decisions, notes));
+  append(notes, untold(written.notes, notes));
+  for (std::size_t n = 0; n < std::min(notes.size(), kNotes); ++n) err << "note: " << notes[n] << "\n";
+  if (notes.size() > kNotes)
+    err << "note: and " << notes.size() - kNotes << " more, which the page and the manifests have\n";
   for (const std::string& file : written.removed)
     err << "note: removed " << file << ", which the organ of this name had before\n";
+}
+
+/// Labels of an image, a map or several masks. Masks in files of their own are a scene of all of them unless some were
+/// asked for.
+WrittenOrgans import_labels(const OrganImportOptions& options, const fs::path& stem) {
+  ImportSource source = read_import_source(options);
+  OrganImportOptions asked = options;
+  if (!source.origin.empty() && options.label.empty() && source.map.segments.size() > 1) asked.all = true;
+  std::vector<std::string> decisions = source.map.notes;
+  if (source.image) append(decisions, source.image->notes);
+  const std::vector<ChosenLabel> labels = choose_labels(asked, source.map, source.file, decisions);
+  const bool scene = labels.size() > 1 || asked.all || asked.output.ends_with(kOrganSetSuffix);
+  return scene ? import_scene(asked, std::move(source), labels, decisions, stem)
+               : import_label(asked, std::move(source), labels.front(), decisions, stem);
+}
+
+/// Surfaces in several files, a folder or a zip; nothing where the input is something else.
+std::optional<OrganFiles> surface_files(const OrganImportOptions& options) {
+  std::vector<std::string> inputs{options.input};
+  inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
+  const bool maybe = inputs.size() > 1 || !is_volume_file(options.input);
+  std::optional<OrganFiles> files = maybe ? organ_files(inputs, options.progress) : std::nullopt;
+  if (!files || files->surfaces.empty()) return std::nullopt;
+  return files;
 }
 
 }  // namespace
@@ -326,17 +429,12 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
   const fs::path stem = stem_of(options.output);
   check_not_input(stem, options);
   WrittenOrgans written;
-  if (is_surface_input(options)) {
-    written = import_surface_file(options, stem);
-  } else {
-    ImportSource source = read_import_source(options);
-    std::vector<std::string> decisions = source.map.notes;
-    if (source.image) append(decisions, source.image->notes);
-    const std::vector<ChosenLabel> labels = choose_labels(options, source.map, source.file, decisions);
-    const bool scene = labels.size() > 1 || options.all || options.output.ends_with(kOrganSetSuffix);
-    written = scene ? import_scene(options, std::move(source), labels, decisions, stem)
-                    : import_label(options, std::move(source), labels.front(), decisions, stem);
-  }
+  if (is_surface_input(options))
+    written = import_surface_file(options, options.input, stem);
+  else if (const auto surfaces = surface_files(options))
+    written = import_surfaces(options, *surfaces, stem);
+  else
+    written = import_labels(options, stem);
   written.stem = stem;
   if (!options.report.empty()) add_page(options, written);
   write(options, written);
@@ -346,12 +444,14 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
 
 int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostream& err) {
   const WrittenOrgans written = import_organs(options, err);
+  const OrganManifest& first = written.organs[0].manifest;
+  const Eigen::AlignedBox3d bounds = written.organs[0].surface.bounds();
+  const std::string file = written.manifest.string();
   if (written.set)
     out << (options.json ? scene_report_json(*written.set, written.organs)
-                         : scene_report_text(*written.set, written.organs));
+                         : scene_summary(*written.set, written.organs, file));
   else
-    out << (options.json ? organ_json(written.organs[0].manifest, written.organs[0].surface.bounds())
-                         : organ_text(written.organs[0].manifest, written.organs[0].surface.bounds()));
+    out << (options.json ? organ_json(first, bounds) : organ_summary(first, bounds, file));
   return 0;
 }
 

@@ -13,9 +13,12 @@
 #include "app/cli/command.h"
 #include "app/cli/progress_display.h"
 #include "app/organs/import_options.h"
+#include "app/organs/organ_files.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_reader.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"
+#include "tissue/imaging/dicom/dicom_study.h"
+#include "tissue/imaging/dicom/structure_contours.h"
 #include "tissue/imaging/labels/label_choice.h"
 #include "tissue/imaging/labels/label_table.h"
 #include "tissue/imaging/labels/label_table_file.h"
@@ -102,9 +105,18 @@ const char* kind_name(DicomKind kind) {
   return "other";
 }
 
+/// Structures by their place in the list, which is their label; nothing is filled for it.
+Json structures_json(const DicomStudy& study, int series, const Progress& progress) {
+  Json list = Json::array();
+  for (const Structure& structure : read_structures(study, progress, series))
+    list.push_back({{"number", list.size() + 1}, {"name", structure.name}, {"contours", structure.closed.size()}});
+  return list;
+}
+
 Json dicom_json(const OrganInspectOptions& options) {
   Json json{{"kind", "DICOM"}, {"series", Json::array()}};
-  for (const DicomSeries& one : list_dicom(options.input, options.progress)) {
+  const DicomStudy study(options.input, options.progress);
+  for (const DicomSeries& one : study.series()) {
     json["series"].push_back({{"number", one.number},
                               {"kind", kind_name(one.kind)},
                               {"modality", one.modality},
@@ -116,9 +128,23 @@ Json dicom_json(const OrganInspectOptions& options) {
                               {"hash", one.hash},
                               {"problem", one.problem},
                               {"words", describe(one)}});
+    if (one.kind == DicomKind::kStructureSet && one.problem.empty())
+      json["series"].back()["structures"] = structures_json(study, one.number, options.progress);
     if (one.kind != DicomKind::kSegmentation) continue;
-    const LabelMap map = read_dicom_segmentation(options.input, options.progress, one.number);
+    const LabelMap map = read_dicom_segmentation(study, options.progress, one.number);
     json["series"].back()["segments"] = segments_json(map, nullptr)["segments"];
+  }
+  return json;
+}
+
+/// A folder or a zip of one file an organ.
+Json files_json(const OrganFiles& files, const Progress& progress) {
+  if (!files.volumes.empty()) return segments_json(combined_masks(files, {}, {}, progress).map, nullptr);
+  Json json{{"kind", "surface"}, {"parts", Json::array()}};
+  for (const OrganFile& file : files.surfaces) {
+    std::size_t triangles = 0;
+    for (const SurfacePart& part : list_surface_parts(file.path, progress)) triangles += part.triangles;
+    json["parts"].push_back({{"name", file.name}, {"triangles", triangles}});
   }
   return json;
 }
@@ -171,6 +197,10 @@ std::string words(const Json& json) {
           << (series["problem"].get<std::string>().empty() ? "" : "\n     " + series["problem"].get<std::string>())
           << "\n";
       if (series.contains("segments")) out << segment_lines(series["segments"]);
+      if (series.contains("structures"))
+        for (const Json& structure : series["structures"])
+          out << "  " << structure["number"] << " " << structure["name"].get<std::string>() << ": "
+              << structure["contours"] << " contours\n";
     }
   }
   if (json.contains("notes"))
@@ -188,6 +218,8 @@ int organ_inspect(const OrganInspectOptions& options, std::ostream& out, std::os
     json = volume_json(options);
   else if (!fs::is_directory(options.input) && is_surface_file(options.input))
     json = surface_json(options);
+  else if (const auto files = organ_files({options.input}, options.progress))
+    json = files_json(*files, options.progress);
   else
     json = dicom_json(options);
   out << (options.json ? json.dump(2) + "\n" : words(json));

@@ -34,6 +34,10 @@ Json source_json(const OrganSource& source) {
   json["label"] = source.label ? Json(*source.label) : Json(nullptr);
   json["label_name"] = source.label_name;
   json["label_table"] = source.label_table;
+  if (source.colour) json["label_colour"] = *source.colour;
+  for (const SegmentCode& code : source.codes)
+    json["label_codes"].push_back(
+        {{"role", code.role}, {"scheme", code.scheme}, {"value", code.value}, {"meaning", code.meaning}});
   json["modality"] = source.modality;
   return json;
 }
@@ -163,8 +167,10 @@ std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d&
       << " % from 15 deg on; edges " << mesh.quality.edge_min_m * 1e3 << " to " << mesh.quality.edge_max_m * 1e3
       << " mm\n"
       << "  source     " << manifest.source.file << " (" << manifest.source.modality << ", " << manifest.source.unit
-      << "), sha256 " << manifest.source.sha256.substr(0, 16) << "\n"
-      << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
+      << "), sha256 " << manifest.source.sha256.substr(0, 16) << "\n";
+  for (const SegmentCode& code : manifest.source.codes)
+    out << "  code       " << code.role << ": " << code.scheme << " " << code.value << " \"" << code.meaning << "\"\n";
+  out << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
   text_of_volume_mesh(out, "lattice    ", manifest.lattice, "share of nearly empty cells ");
   text_of_volume_mesh(out, "tetrahedra ", manifest.tetrahedra, "smallest dihedral angle, degrees ");
   if (mesh.cut_at_border())
@@ -174,6 +180,71 @@ std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d&
   for (const std::string& repair : mesh.repairs) out << "  repair     " << repair << "\n";
   for (const std::string& decision : manifest.decisions) out << "  decided    " << decision << "\n";
   return out.str();
+}
+
+std::string organ_summary(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds,
+                          const std::string& manifest_file) {
+  const MeshFacts& mesh = manifest.mesh;
+  const OrganSource& source = manifest.source;
+  const Vec3 extent = bounds.sizes() * 1e3;
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(2);
+  out << manifest.name << (manifest.synthetic ? " (synthetic)" : "") << ", material " << manifest.material << ", from "
+      << (source.label ? "label " + std::to_string(*source.label) +
+                             (source.label_name.empty() ? "" : " \"" + source.label_name + "\"") + " of "
+                       : "")
+      << source.file << " (" << source.modality << ")\n"
+      << "  " << manifest_file << ", " << manifest.surface << ": " << mesh.topology.triangles << " triangles, "
+      << (mesh.topology.closed() ? "closed" : "OPEN") << ", "
+      << (mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") << ", " << mesh.self_intersections
+      << " self-intersections\n"
+      << "  volume     " << mesh.volume_ml << " mL";
+  if (mesh.label_volume_ml) out << ", label " << *mesh.label_volume_ml << " mL (" << mesh.volume_error_pct << " %)";
+  out << "; size " << extent.x() << " x " << extent.y() << " x " << extent.z() << " mm\n"
+      << "  distance   mean " << mesh.distance.mean_m * 1e3 << ", max " << mesh.distance.max_m * 1e3
+      << " mm from the original; back mean " << mesh.distance_back.mean_m * 1e3 << ", max "
+      << mesh.distance_back.max_m * 1e3 << " mm\n"
+      << "  licence    " << manifest.licence << (manifest.credit.empty() ? "" : "; ") << manifest.credit << "\n";
+  if (!mesh.lost.empty() || !mesh.added.empty()) {
+    const auto total = [](const auto& parts) {
+      double sum = 0;
+      for (const auto& part : parts) sum += part.volume_ml;
+      return sum;
+    };
+    out << "  parts      " << mesh.lost.size() << " lost (" << total(mesh.lost) << " mL), " << mesh.added.size()
+        << " added (" << total(mesh.added) << " mL)\n";
+  }
+  if (mesh.cut_at_border()) out << "  CUT        the image ends inside the organ: the flat cap is not anatomy\n";
+  return out.str() + "  more       trocar organ info " + manifest_file + ", or a page with --report\n";
+}
+
+std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>& organs,
+                          const std::string& manifest_file) {
+  constexpr std::size_t kListed = 5;
+  std::vector<const CompiledMember*> largest;
+  std::size_t triangles = 0;
+  for (const CompiledMember& organ : organs) {
+    largest.push_back(&organ);
+    triangles += organ.manifest.mesh.topology.triangles;
+  }
+  std::stable_sort(largest.begin(), largest.end(), [](const CompiledMember* a, const CompiledMember* b) {
+    return a->manifest.mesh.volume_ml > b->manifest.mesh.volume_ml;
+  });
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(2);
+  out << set.name << ": " << organs.size() << " organs, exercises are done on " << set.subject << "\n  "
+      << manifest_file << ": " << triangles << " triangles; " << set.contacts.size()
+      << " pairs of organs lie against each other\n";
+  for (std::size_t n = 0; n < std::min(kListed, largest.size()); ++n) {
+    const OrganManifest& manifest = largest[n]->manifest;
+    out << "  " << manifest.name << " (" << manifest.material << "): " << manifest.mesh.volume_ml << " mL, "
+        << manifest.mesh.topology.triangles << " triangles, mean distance " << manifest.mesh.distance.mean_m * 1e3
+        << " mm\n";
+  }
+  if (largest.size() > kListed) out << "  and " << largest.size() - kListed << " smaller ones\n";
+  return out.str() + "  more       trocar organ info " + manifest_file + ", or a page with --report\n";
 }
 
 std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs) {

@@ -12,6 +12,13 @@
 namespace trocar {
 
 std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
+/// What matters of an import, in at most ten lines; `organ info` and the page have the rest.
+/// @param manifest_file name of the file to ask `organ info` about
+std::string organ_summary(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds,
+                          const std::string& manifest_file);
+std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>& organs,
+                          const std::string& manifest_file);
+
 std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
 
 std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs);

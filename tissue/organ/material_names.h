@@ -1,8 +1,11 @@
-// Finding a material by the name of an organ: by its own name, by an alias, by the beginning of a name. Thread: any.
+// Finding a material by the name of an organ: by its own name, by an alias, by the beginning of a name. "Liver" and
+// "liver" are one. Thread: any.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "tissue/imaging/labels/segment.h"
 
 namespace trocar {
 
@@ -17,7 +20,8 @@ inline bool alias_fits(const std::string& alias, const std::string& name) {
 
 /// @param materials each with `name` and `aliases`; an own name goes before every alias. Null when none fits.
 template <typename Material>
-const Material* material_named(const std::vector<Material>& materials, const std::string& name) {
+const Material* material_named(const std::vector<Material>& materials, const std::string& given) {
+  const std::string name = folded_name(given);
   for (const Material& material : materials)
     if (material.name == name) return &material;
   for (const Material& material : materials)

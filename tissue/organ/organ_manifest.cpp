@@ -1,5 +1,7 @@
 #include "tissue/organ/organ_manifest.h"
 
+#include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -149,6 +151,41 @@ std::optional<VolumeMeshFile> read_volume_mesh(TomlTable& root, std::string_view
   return mesh;
 }
 
+std::string colour_text(const SegmentColour& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour[0], colour[1], colour[2]);
+  return text;
+}
+
+SegmentColour read_colour(TomlTable& table, const char* key) {
+  const std::string text = table.text(key);
+  SegmentColour colour{};
+  bool fits = text.size() == 7 && text[0] == '#';
+  for (std::size_t part = 0; fits && part < 3; ++part) {
+    const char *from = text.data() + 1 + 2 * part, *to = from + 2;
+    fits = std::from_chars(from, to, colour[part], 16).ptr == to;
+  }
+  if (!fits) table.refuse(key, std::string(key) + " must be \"#rrggbb\"");
+  return colour;
+}
+
+std::string codes_text(const std::vector<SegmentCode>& codes) {
+  std::string text = "[";
+  for (const SegmentCode& code : codes)
+    text += "\n  {role = " + TomlWriter::quoted(code.role) + ", scheme = " + TomlWriter::quoted(code.scheme) +
+            ", value = " + TomlWriter::quoted(code.value) + ", meaning = " + TomlWriter::quoted(code.meaning) + "},";
+  return text + "\n]";
+}
+
+std::vector<SegmentCode> read_codes(TomlTable& table, std::string_view key) {
+  std::vector<SegmentCode> codes;
+  for (TomlTable& code : table.tables(key)) {
+    codes.push_back({code.text("role"), code.text("scheme"), code.text("value"), code.text("meaning")});
+    code.finish();
+  }
+  return codes;
+}
+
 OrganSource read_source(TomlTable table) {
   OrganSource source;
   source.file = table.text("file");
@@ -158,6 +195,8 @@ OrganSource read_source(TomlTable table) {
   if (table.has("label")) source.label = table.integer("label");
   source.label_name = table.text("label_name");
   source.label_table = table.text("label_table");
+  if (table.has("label_colour")) source.colour = read_colour(table, "label_colour");
+  if (table.has("label_codes")) source.codes = read_codes(table, "label_codes");
   table.finish();
   return source;
 }
@@ -186,6 +225,8 @@ std::string manifest_text(const OrganManifest& manifest) {
   if (manifest.source.label) out.add("label", *manifest.source.label);
   out.add("label_name", manifest.source.label_name);
   out.add("label_table", manifest.source.label_table);
+  if (manifest.source.colour) out.add("label_colour", colour_text(*manifest.source.colour));
+  if (!manifest.source.codes.empty()) out.raw("label_codes", codes_text(manifest.source.codes));
   write_mesh(out, manifest.mesh);
   write_quality(out, manifest.mesh.quality);
   write_volume_mesh(out, "lattice", manifest.lattice);

@@ -9,18 +9,21 @@
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/mesh/surface/mesh_facts.h"
 
 namespace trocar {
 
 struct OrganSource {
-  std::string file;          ///< name without directories
-  std::string sha256;        ///< of that file
-  std::string modality;      ///< "CT", "MR", "surface", "unknown"
-  std::string unit;          ///< length unit of the source: "mm", "cm", "m"
-  std::optional<int> label;  ///< number in the label map
-  std::string label_name;    ///< "" when no table names it
-  std::string label_table;   ///< "" when none was needed
+  std::string file;                          ///< name without directories
+  std::string sha256;                        ///< of that file
+  std::string modality;                      ///< "CT", "MR", "surface", "unknown"
+  std::string unit;                          ///< length unit of the source: "mm", "cm", "m"
+  std::optional<int> label;                  ///< number in the label map
+  std::string label_name;                    ///< "" when no table names it
+  std::string label_table;                   ///< "" when none was needed
+  std::optional<SegmentColour> colour = {};  ///< that the file shows the label in
+  std::vector<SegmentCode> codes = {};       ///< that the file gives the label
 };
 
 /// A lattice or a mesh of tetrahedra beside the surface.

@@ -47,20 +47,27 @@ std::string refusal(const OrganImportOptions& options, const LabelMap& map) {
   return test::message_of<InputError>([&] { choose(options, map); });
 }
 
-TEST(ChosenLabels, ANameOnWhichAllTablesAgreeIsTakenAndSaid) {
-  const Choice choice = choose(asking({"liver"}), map_of({{0, 1, ""}, {0, 5, ""}}));
-  ASSERT_EQ(choice.labels.size(), 1U);
-  EXPECT_EQ(choice.labels[0].segment.number, 5);
-  EXPECT_CONTAINS(choice.labels[0].table, "totalsegmentator-v1, totalsegmentator-v2");
-  ASSERT_EQ(choice.decisions.size(), 1U);
-  EXPECT_CONTAINS(choice.decisions[0], "label 5 is \"liver\" in every table");
+TEST(ChosenLabels, NoTableIsAssumedThoughAllAgree) {
+  const LabelMap map = map_of({{0, 1, ""}, {0, 5, ""}});
+  const Choice choice = choose(asking({"5"}), map);
+  EXPECT_EQ(choice.labels.at(0).segment.name, "") << "5 is the liver in every table, and here whatever was drawn";
+  EXPECT_EQ(choice.labels[0].table, "");
+  EXPECT_CONTAINS(refusal(asking({"liver"}), map), "the file gives no such name");
 }
 
-TEST(ChosenLabels, ANameOnWhichTheyDifferNeedsATable) {
+TEST(ChosenLabels, NamesAreTakenInAnyCaseAndNameTakesOneLabel) {
+  const LabelMap map = map_of({{0, 1, "Liver"}, {0, 2, "Left Kidney"}});
+  EXPECT_EQ(choose(asking({"left_kidney"}), map).labels.at(0).segment.number, 2);
+  OrganImportOptions by_name;
+  by_name.name = "liver";
+  EXPECT_EQ(choose(by_name, map).labels.at(0).segment.number, 1);
+}
+
+TEST(ChosenLabels, ANameNeedsATable) {
   const LabelMap map = map_of({{0, 1, ""}, {0, 7, ""}, {0, 10, ""}});
   const std::string message = refusal(asking({"pancreas"}), map);
-  EXPECT_CONTAINS(message, "10 in totalsegmentator-v1");
-  EXPECT_CONTAINS(message, "7 in totalsegmentator-v2");
+  EXPECT_CONTAINS(message, "totalsegmentator-v1 (10)");
+  EXPECT_CONTAINS(message, "totalsegmentator-v2 (7)");
   EXPECT_CONTAINS(message, "--label-table");
   const Choice v1 = choose(asking({"pancreas"}, "totalsegmentator-v1"), map),
                v2 = choose(asking({"pancreas"}, "totalsegmentator-v2"), map);

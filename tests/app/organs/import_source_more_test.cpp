@@ -118,7 +118,7 @@ TEST(ImportSource, NoWrittenFileOfADicomImportNamesTheFolder) {
   options.threshold.window = {{80, 300}};
   options.output = (folder / "soft").string();
   options.report = folder / "soft.html";
-  options.triangles = 600;
+  options.triangles = 600, options.material = "soft_tissue";
   std::ostringstream out, err;
   ASSERT_EQ(organ_import(options, out, err), 0);
   int files = 0;

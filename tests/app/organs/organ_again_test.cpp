@@ -32,6 +32,7 @@ struct Ball {
         folder.write("map.nii.gz", nifti_gz_bytes(volume.size, volume.index_to_ras_mm, volume.labels)).string();
     options.output = (folder / "out").string();
     options.label = {"1"};
+    options.material = "soft_tissue";
     options.triangles = 700;
     options.licence = "CC0-1.0";
   }

@@ -95,17 +95,20 @@ TEST(OrganImport, MultiLabelMapsNeedALabelAndSayTheTable) {
   test::TemporaryFolder folder;
   OrganImportOptions options = options_for(write_map(folder, "map.nii.gz", true), folder / "out.organ.toml");
   EXPECT_CONTAINS(refusal(options), "holds labels 4, 5");
-  options.label = {"liver"};
-  const Outcome by_name = imported(options);
-  EXPECT_CONTAINS(by_name.remarks, "totalsegmentator-v1");
   options.label = {"5"};
+  EXPECT_CONTAINS(refusal(options), "label 5 has no name in the file");
+  EXPECT_CONTAINS(refusal(options), "--label-table");
+  EXPECT_CONTAINS(refusal(options), "--material soft_tissue");
+  options.label_table = "totalsegmentator-v1";
   const Outcome by_number = imported(options);
-  EXPECT_EQ(by_number.report, by_name.report);
-  EXPECT_CONTAINS(by_name.report["source"]["label_table"].get<std::string>(), "totalsegmentator-v1");
+  EXPECT_EQ(by_number.report["name"], "liver");
+  EXPECT_EQ(by_number.report["source"]["label_table"], "totalsegmentator-v1");
+  options.label = {"liver"};
+  EXPECT_EQ(imported(options).report, by_number.report);
   options.label = {"tail"};
   EXPECT_CONTAINS(refusal(options), "--label tail");
   options.label = {"spleen"};
-  EXPECT_CONTAINS(refusal(options), "label 1 (spleen) marks no voxel; the map holds 4, 5");
+  EXPECT_CONTAINS(refusal(options), "\"spleen\" is number 1 in the table totalsegmentator-v1, which marks no voxel");
 }
 
 TEST(OrganImport, TakesNameLicenceAndMaterialFromTheUser) {

@@ -292,8 +292,8 @@ TEST(MaterialLookUp, OwnNamesGoBeforeAliasesAndStarsStandForAnyEnding) {
       "m.toml");
   EXPECT_EQ(table.find("vein").stiffness_n_per_m, 20);
   for (const auto& [name, found] :
-       {std::pair("artery_left", "tube"), std::pair("artery_", "tube"), std::pair("artery", "soft_tissue"),
-        std::pair("", "soft_tissue"), std::pair("Vein", "soft_tissue"), std::pair("my_artery_left", "soft_tissue")})
+       {std::pair("artery_left", "tube"), std::pair("artery", "soft_tissue"), std::pair("", "soft_tissue"),
+        std::pair("Artery Left", "tube"), std::pair("Vein", "vein"), std::pair("my_artery_left", "soft_tissue")})
     EXPECT_EQ(table.find(name).name, found) << name;
 }
 

@@ -97,7 +97,7 @@ TEST(GridsThatDiffer, TheSurfaceIsThatOfTheLabelsOwnGrid) {
 
 TEST(GridsThatDiffer, ImageValuesUnderTheLabelGoThroughThePatient) {
   Grids grids(kRadius - 5);  // well inside what the image shows: nothing but 100
-  grids.options.report = grids.folder / "page.html";
+  grids.options.report = grids.folder / "page.html", grids.options.material = "soft_tissue";
   std::ostringstream out, err;
   EXPECT_EQ(organ_import(grids.options, out, err), 0);
   EXPECT_CONTAINS(err.str(), "the labels have another grid than the image; surfaces are made on the labels' own grid");

@@ -47,6 +47,7 @@ struct Files {
   OrganImportOptions options(const std::string& output) {
     OrganImportOptions options;
     options.input = map.string();
+    options.label_table = "totalsegmentator-v2";
     options.output = (folder / output).string();
     options.triangles = 800;
     options.json = true;
@@ -100,10 +101,13 @@ TEST(SceneImport, AllTakesEveryLabelAndTheLargestIsTheSubject) {
   files.map = files.folder.write("map.nii.gz",
                                  nifti_gz_bytes(files.labels.size, files.labels.index_to_ras_mm, files.labels.labels));
   OrganImportOptions options = files.options("all");
-  options.all = true;
+  options.all = true, options.label_table.clear();
+  EXPECT_CONTAINS(refusal(options), "labels 1, 7 have no name in the file");
+  options.material = "soft_tissue";
   const Json report = imported(options);
   EXPECT_EQ(report["organs"].size(), 2U);
   EXPECT_EQ(report["organs"][1]["name"], "label-7");
+  EXPECT_EQ(report["organs"][1]["material"], "soft_tissue");
   options.subject = "bladder";
   EXPECT_CONTAINS(refusal(options), "--subject bladder");
 }
@@ -187,7 +191,7 @@ TEST(OrganImport, ACountedMapGetsNoNamesFromTables) {
   files.map = files.folder.write("map.nii.gz",
                                  nifti_gz_bytes(files.labels.size, files.labels.index_to_ras_mm, files.labels.labels));
   OrganImportOptions options = files.options("one");
-  options.label = {"1"};
+  options.label = {"1"}, options.label_table.clear(), options.material = "soft_tissue";
   const Json report = imported(options);
   EXPECT_EQ(report["name"], "label-1") << "1 is the spleen in every table, and here just the first";
   options.label = {"spleen"};
@@ -199,6 +203,10 @@ TEST(OrganImportByThreshold, IsHonestAboutWhatItIs) {
   OrganImportOptions options = files.options("soft");
   options.input = files.image().string();
   options.threshold.window = {50, 120};
+  EXPECT_CONTAINS(refusal(options), "--label-table") << "what is marked was numbered by no table";
+  options.label_table.clear();
+  EXPECT_CONTAINS(refusal(options), "--material");
+  options.material = "soft_tissue";
   const Json report = imported(options);
   EXPECT_EQ(report["source"]["modality"], "CT");
   EXPECT_NEAR(report["label_volume_ml"].get<double>(), test::sphere_volume(0.034) * 1e6 / 2, 6);

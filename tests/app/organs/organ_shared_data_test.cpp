@@ -37,7 +37,8 @@ class SharedData : public ::testing::Test {
               int triangles = 6000, int components = 1) {
     OrganImportOptions options;
     options.input = input.string(),
-    options.label = label.empty() ? std::vector<std::string>{} : std::vector<std::string>{label},
+    options.label = label.empty() ? std::vector<std::string>{} : std::vector<std::string>{label};
+    options.label_table = label == "5" || label == "liver" ? "totalsegmentator-v2" : "";
     options.surface.unit = unit, options.triangles = triangles, options.json = true;
     options.output = (folder_ / "organ").string();
     std::ostringstream out, err;
@@ -111,6 +112,7 @@ TEST_F(SharedData, ThreeVoxelsOfHeartAndTheCtItselfAreRefused) {
   options.input = (data_ / "ct_abdomen_totalseg" / "example_ct.nii.gz").string();
   EXPECT_CONTAINS(test::message_of<InputError>([&] { organ_import(options, out, err); }), "not a label map");
   options.labels = (data_ / "ct_abdomen_totalseg" / "example_seg.nii.gz").string(), options.label = {"liver"};
+  options.label_table = "totalsegmentator-v2";
   EXPECT_EQ(organ_import(options, out, err), 0);
   EXPECT_EQ(load_organ(folder_ / "x.organ.toml").modality, "CT");
 }

@@ -126,15 +126,15 @@ ContourGrid own_contour_grid(const std::vector<Structure>& structures, const std
     for (const Contour& contour : structure.closed)
       for (const Eigen::Vector3d& point : contour) box.extend(Eigen::Vector2d(u.dot(point), v.dot(point)));
   const Eigen::Vector2d extent = box.sizes() / pixel;
-  if ((extent.x() + 6) * (extent.y() + 6) * planes.count > static_cast<double>(kMostVoxels))
+  if ((extent.x() + 6) * (extent.y() + 6) * (planes.count + 2.0) > static_cast<double>(kMostVoxels))
     throw InputError(file + ": its contours would need more voxels than an import may hold (268 million)");
   ContourGrid grid;
   grid.size = {static_cast<int>(std::ceil(extent.x())) + 1 + 2 * kMargin,
-               static_cast<int>(std::ceil(extent.y())) + 1 + 2 * kMargin, planes.count};
+               static_cast<int>(std::ceil(extent.y())) + 1 + 2 * kMargin, planes.count + 2};
   Eigen::Affine3d lps = Eigen::Affine3d::Identity();
   lps.linear() << u * pixel, v * pixel, normal * planes.step;
-  lps.translation() =
-      u * (box.min().x() - kMargin * pixel) + v * (box.min().y() - kMargin * pixel) + normal * planes.first;
+  lps.translation() = u * (box.min().x() - kMargin * pixel) + v * (box.min().y() - kMargin * pixel) +
+                      normal * (planes.first - planes.step);
   grid.index_to_ras_mm = Eigen::Affine3d(Eigen::Scaling(-1.0, -1.0, 1.0)) * lps;
   return grid;
 }

@@ -39,7 +39,8 @@ struct ContourGrid {
 ContourGrid image_contour_grid(const ImageVolume& image, const std::vector<Structure>& structures,
                                const std::string& file);
 
-/// Slices where the contours lie; in them square pixels of 1 mm, less for small structures, with a margin of two.
+/// Slices where the contours lie, and an empty one at either end: nothing is cut off there; in them square pixels of 1
+/// mm, less for small structures, with a margin of two.
 /// @throws InputError when the planes are not parallel or not evenly spaced, or the grid would be too large
 ContourGrid own_contour_grid(const std::vector<Structure>& structures, const std::string& file);
 

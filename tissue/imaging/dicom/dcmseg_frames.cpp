@@ -2,27 +2,55 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmiod/cielabutil.h>
 #include <dcmtk/dcmseg/segdoc.h>
 #include <dcmtk/dcmseg/segment.h>
 
-#include <cctype>
+#include <algorithm>
 #include <memory>
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/child_process.h"
 #include "tissue/imaging/dicom/dcmtk_silence.h"
 #include "tissue/imaging/dicom/packed_bytes.h"
+#include "tissue/imaging/dicom/packed_segment.h"
 
 namespace trocar {
 namespace {
 
-std::string label_of(DcmSegment& segment) {
+std::string text_of(const OFString& text) { return readable_name(text.c_str()); }
+
+void add_code(std::vector<SegmentCode>& codes, const char* role, CodeSequenceMacro* code) {
+  if (code == nullptr) return;
+  OFString scheme, value, meaning;
+  code->getCodingSchemeDesignator(scheme);
+  code->getCodeValue(value);
+  code->getCodeMeaning(meaning);
+  if (!value.empty()) codes.push_back({role, text_of(scheme), text_of(value), text_of(meaning)});
+}
+
+/// "RecommendedDisplayCIELabValue" as sRGB.
+std::optional<SegmentColour> colour_of_segment(DcmSegment& segment) {
+  Uint16 lightness = 0, a = 0, b = 0;
+  if (segment.getRecommendedDisplayCIELabValue(lightness, a, b).bad()) return std::nullopt;
+  double red = 0, green = 0, blue = 0;
+  IODCIELabUtil::dicomLab2RGB(red, green, blue, lightness, a, b);
+  const auto within = [](double part) { return std::clamp(part, 0.0, 1.0); };
+  return colour_of(within(red), within(green), within(blue));
+}
+
+Segment described(DcmSegment& segment, int number) {
   OFString label;
   segment.getSegmentLabel(label);
-  std::string text(label.c_str());
-  for (char& letter : text)
-    if (std::iscntrl(static_cast<unsigned char>(letter)) != 0) letter = ' ';
-  return text.substr(0, 64);  // what the standard allows
+  Segment told{0, number, text_of(label), colour_of_segment(segment), {}};
+  add_code(told.codes, "category", &segment.getSegmentedPropertyCategoryCode());
+  add_code(told.codes, "type", &segment.getSegmentedPropertyTypeCode());
+  for (CodeSequenceMacro* code : segment.getSegmentedPropertyTypeModifierCode())
+    add_code(told.codes, "type modifier", code);
+  add_code(told.codes, "region", &segment.getGeneralAnatomyCode().getAnatomicRegion());
+  for (CodeSequenceMacro* code : segment.getGeneralAnatomyCode().getAnatomicRegionModifier())
+    add_code(told.codes, "region modifier", code);
+  return told;
 }
 
 void pack_segments(PackedWriter& out, DcmSegmentation& object, std::vector<int>& segment_of) {
@@ -30,8 +58,8 @@ void pack_segments(PackedWriter& out, DcmSegmentation& object, std::vector<int>&
   out.put(static_cast<std::uint64_t>(segments));
   for (std::size_t n = 1; n <= segments; ++n) {
     DcmSegment* segment = object.getSegment(n);
-    out.put(static_cast<std::int32_t>(n));
-    out.put_text(segment != nullptr ? label_of(*segment) : "");
+    const int number = static_cast<int>(n);
+    put_segment(out, segment != nullptr ? described(*segment, number) : Segment{0, number});
     OFVector<std::size_t> of_segment;
     object.getFramesForSegment(n, of_segment);
     for (const std::size_t frame : of_segment)
@@ -75,8 +103,7 @@ SegmentationFrames read_segmentation_frames(const std::filesystem::path& path, c
   PackedReader in(bytes, name);
   SegmentationFrames frames;
   for (std::uint64_t left = in.get_count(12); left > 0; --left) {
-    const int number = in.get<std::int32_t>();
-    frames.segments.push_back({number, std::string(in.get_text())});
+    frames.segments.push_back(get_segment(in));
   }
   for (std::uint64_t left = in.get_count(12); left > 0; --left) {
     frames.segment_of.push_back(in.get<std::int32_t>());

@@ -9,16 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/progress.h"
 
 namespace trocar {
 
 struct SegmentationFrames {
-  struct Named {
-    int number = 0;
-    std::string label;
-  };
-  std::vector<Named> segments;
+  std::vector<Segment> segments;    ///< number, label, colour and codes
   std::vector<int> segment_of;      ///< number, frame by frame; 0: belongs to none
   std::vector<std::string> values;  ///< of compressed fractional frames: one byte a pixel; empty otherwise
 };

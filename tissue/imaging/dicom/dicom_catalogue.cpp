@@ -1,9 +1,13 @@
 #include "tissue/imaging/dicom/dicom_catalogue.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "haptics/digest/digest.h"
@@ -48,7 +52,8 @@ void describe_series(CataloguedSeries& series, const std::string& input) {
   const DicomInstance& first = series.instances.front();
   series.facts.kind = first.kind;
   series.facts.modality = first.modality;
-  series.facts.hash = short_hash(first.study + "|" + first.series + "|" + std::to_string(first.series_number));
+  series.facts.hash =
+      short_hash(first.study + "|" + first.series + "|" + std::to_string(first.series_number) + series.facts.part);
   if (first.kind == DicomKind::kImage) return measure(series, input);
   for (const DicomInstance& instance : series.instances) {
     if (series.facts.problem.empty()) series.facts.problem = instance.problem;
@@ -71,6 +76,52 @@ void join_damaged(std::map<Key, std::vector<DicomInstance>>& groups) {
     for (DicomInstance& instance : group->second) images->second.push_back(std::move(instance));
     group = groups.erase(group);
   }
+}
+
+/// Whether no two of the images lie in one place.
+bool apart(const std::vector<DicomInstance>& images) {
+  std::set<std::array<long, 3>> places;
+  for (const DicomInstance& instance : images) {
+    const Eigen::Vector3d at = instance.image->places.front().position * 100;  // hundredths of a millimetre
+    if (!places.insert({std::lround(at.x()), std::lround(at.y()), std::lround(at.z())}).second) return false;
+  }
+  return true;
+}
+
+struct Pass {
+  std::string part;
+  std::vector<DicomInstance> instances;
+};
+
+/// Values as numbers where they are numbers: 2 comes before 10.
+std::pair<double, std::string> sorted_by(const std::string& value) {
+  return {std::strtod(value.c_str(), nullptr), value};
+}
+
+/// A series with several images in one place (echoes, phases, directions), taken apart by the first element that tells
+/// them apart in whole piles of one height; else as it is.
+std::vector<Pass> passes(std::vector<DicomInstance>&& instances) {
+  const auto plain = [](const DicomInstance& one) { return one.image && one.image->places.size() == 1; };
+  if (std::all_of(instances.begin(), instances.end(), plain) && !apart(instances))
+    for (std::size_t what = 0; what < kPassNames.size(); ++what) {
+      std::map<std::pair<double, std::string>, std::vector<DicomInstance>> piles;
+      for (const DicomInstance& one : instances) piles[sorted_by(one.pass[what])].push_back(one);
+      const std::size_t height = piles.begin()->second.size();
+      const bool fits =
+          piles.size() > 1 && height > 1 && std::all_of(piles.begin(), piles.end(), [&](const auto& pile) {
+            return pile.second.size() == height && apart(pile.second);
+          });
+      if (!fits) continue;
+      std::vector<Pass> all;
+      for (auto& [value, pile] : piles)
+        all.push_back({std::string(kPassNames[what]) + " " + std::to_string(all.size() + 1) + " of " +
+                           std::to_string(piles.size()),
+                       std::move(pile)});
+      return all;
+    }
+  std::vector<Pass> one;
+  one.push_back({"", std::move(instances)});
+  return one;
 }
 
 bool is_directory_file(const DicomFile& file) { return file.data.find(tag::kDirectoryRecords) != nullptr; }
@@ -101,10 +152,16 @@ DicomCatalogue catalogue(const DicomInput& input, const Progress& progress) {
   DicomCatalogue all;
   all.notes = input.notes();
   for (auto& [key, instances] : grouped(input, progress)) {
-    CataloguedSeries& series = all.series.emplace_back();
-    series.instances = std::move(instances);
-    series.facts.number = static_cast<int>(all.series.size());
-    describe_series(series, input.name());
+    if (instances.front().series == kNoSeries)
+      all.notes.push_back(std::to_string(instances.size()) + (instances.size() == 1 ? " image names" : " images name") +
+                          " no series (their SeriesInstanceUID is empty): taken as one series");
+    for (Pass& pass : passes(std::move(instances))) {
+      CataloguedSeries& series = all.series.emplace_back();
+      series.instances = std::move(pass.instances);
+      series.facts.number = static_cast<int>(all.series.size());
+      series.facts.part = pass.part;
+      describe_series(series, input.name());
+    }
   }
   if (!all.series.empty()) return all;
   if (input.single())
@@ -157,6 +214,7 @@ std::vector<StackSlice> slices_of(const CataloguedSeries& series) {
 std::string describe(const DicomSeries& series) {
   std::string text = std::to_string(series.number) + ": " + series.modality;
   char part[160];
+  if (!series.part.empty()) text += ", " + series.part;
   if (series.kind == DicomKind::kStructureSet) text += ", contours of structures";
   if (series.kind == DicomKind::kOther) text += ", no image";
   if (series.images > 0) {

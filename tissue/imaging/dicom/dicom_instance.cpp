@@ -21,7 +21,9 @@ std::string known_modality(const std::string& text) {
 
 DicomKind kind_of(const DicomFile& file, const std::string& modality) {
   const std::string sop = file.data.text(tag::kSopClass);
-  if (sop == "1.2.840.10008.5.1.4.1.1.66.4" || (sop.empty() && modality == "SEG")) return DicomKind::kSegmentation;
+  const bool label_map = sop == "1.2.840.10008.5.1.4.1.1.66.7";  // refused by name where it is read
+  if (sop == "1.2.840.10008.5.1.4.1.1.66.4" || label_map || (sop.empty() && modality == "SEG"))
+    return DicomKind::kSegmentation;
   if (sop == "1.2.840.10008.5.1.4.1.1.481.3" || (sop.empty() && modality == "RTSTRUCT"))
     return DicomKind::kStructureSet;
   const bool measure = modality == "RTDOSE" || modality == "REG" || sop.starts_with("1.2.840.10008.5.1.4.1.1.66.");
@@ -148,7 +150,12 @@ DicomInstance instance_of(const DicomFile& file, const std::filesystem::path& pa
   instance.kind = kind_of(file, instance.modality);
   instance.study = file.data.text(tag::kStudy), instance.series = file.data.text(tag::kSeries);
   if (instance.series.empty())
-    instance.series = "none " + file.data.text(tag::kSopInstance) + " " + std::to_string(source_size);
+    instance.series = instance.kind == DicomKind::kImage
+                          ? std::string(kNoSeries)
+                          : "none " + file.data.text(tag::kSopInstance) + " " + std::to_string(source_size);
+  for (const DicomTag tag : {tag::kEcho, tag::kEchoTime, tag::kTemporalPosition, tag::kTrigger, tag::kDiffusion,
+                             tag::kImageType, tag::kAcquisition})
+    instance.pass.push_back(file.data.text(tag));
   instance.frame_of_reference = file.data.text(tag::kFrameOfReference);
   instance.rows = small(file.data.whole(tag::kRows)), instance.columns = small(file.data.whole(tag::kColumns));
   instance.frames = frame_count(file.data).value_or(0);

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tissue/imaging/dicom/dicom_elements.h"
@@ -41,6 +43,10 @@ struct DicomImage {
   std::vector<SlicePlace> places;  ///< one a frame
 };
 
+/// What an image of several in one place may differ in, in the order in which it is looked at.
+inline constexpr std::array<const char*, 7> kPassNames{
+    "echo", "echo time", "phase", "trigger time", "diffusion weighting", "kind of image", "acquisition"};
+
 struct DicomInstance {
   std::filesystem::path path;
   std::string name;  ///< of the file in messages
@@ -48,10 +54,15 @@ struct DicomInstance {
   std::string modality = "unknown";               ///< one of a fixed list, or "unknown"
   std::string study, series, frame_of_reference;  ///< for grouping: never shown
   long series_number = 0;
+  std::vector<std::string>
+      pass;  ///< what tells echoes, phases, directions of one series apart, as kPassNames; never shown
   int rows = 0, columns = 0, frames = 0;
   std::string problem;  ///< why `image` is missing although there are pixels, or what is damaged
   std::optional<DicomImage> image;
 };
+
+/// Stands for the series of images that name none.
+inline constexpr std::string_view kNoSeries = "none";
 
 /// What the elements say, with the first thing that is wrong in `problem`; does not throw for bad content.
 DicomInstance instance_of(const DicomFile& file, const std::filesystem::path& path, const std::string& name,

@@ -26,6 +26,7 @@ enum class DicomKind { kImage, kSegmentation, kStructureSet, kOther };
 struct DicomSeries {
   int number = 0;  ///< 1, 2, ... in an order that does not depend on file names
   DicomKind kind = DicomKind::kOther;
+  std::string part = {};               ///< "echo 2 of 3" of a series that holds several images of each place
   std::string modality = "unknown";    ///< "CT", "MR", "SEG", ...; never free text
   int images = 0;                      ///< slices or frames; 0 for kStructureSet and kOther
   int rows = 0, columns = 0;           ///< 0 where it has no images

@@ -48,6 +48,8 @@ void read_coding(Header& header, const DicomItem& data, const DicomInstance& fil
   const std::uint32_t bits = data.whole(tag::kBitsAllocated).value_or(0);
   const std::string type = data.text(tag::kSegmentationType);
   header.fractional = type == "FRACTIONAL";
+  if (type == "LABELMAP")
+    refuse(file, "is a segmentation of the kind LABELMAP, which is not read: export it as BINARY, or as NIfTI or NRRD");
   if (type != "BINARY" && !header.fractional) refuse(file, "is neither a binary nor a fractional segmentation");
   if (bits != (header.fractional ? 8U : 1U))
     refuse(file, "stores " + std::to_string(bits) + " bits a pixel, which does not fit its kind");
@@ -196,13 +198,13 @@ LabelMap assembled(const Header& header, const SegmentationFrames& frames, const
   SegmentLayers layers(grid.size(), grid.ras_frame(), file.name);
   std::vector<std::string> notes;
   double done = 0;
-  for (const SegmentationFrames::Named& segment : frames.segments) {
+  for (const Segment& segment : frames.segments) {
     report(progress, "segments", done++ / static_cast<double>(frames.segments.size()));
     const SegmentMask mask = mask_of(segment.number, header, frames, grid);
     if (mask.empty())
-      notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.label +
+      notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.name +
                       ") marks no voxel and was left out.");
-    layers.add(segment.number, segment.label, mask);
+    layers.add(segment, mask);
   }
   LabelMap map = layers.take();
   if (map.layers.empty()) refuse(file, "marks no voxel at all");

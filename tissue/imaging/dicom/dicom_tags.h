@@ -11,6 +11,8 @@ inline constexpr DicomTag kTransferSyntax = 0x00020010;
 inline constexpr DicomTag kDirectoryRecords = 0x00041220, kReferencedFile = 0x00041500;
 inline constexpr DicomTag kImageType = 0x00080008, kSopClass = 0x00080016, kSopInstance = 0x00080018,
                           kModality = 0x00080060;
+inline constexpr DicomTag kEchoTime = 0x00180081, kEcho = 0x00180086, kTrigger = 0x00181060, kDiffusion = 0x00189087;
+inline constexpr DicomTag kAcquisition = 0x00200012, kTemporalPosition = 0x00200100;
 inline constexpr DicomTag kStudy = 0x0020000D, kSeries = 0x0020000E, kSeriesNumber = 0x00200011;
 inline constexpr DicomTag kPosition = 0x00200032, kOrientation = 0x00200037, kFrameOfReference = 0x00200052;
 inline constexpr DicomTag kSamples = 0x00280002, kPhotometric = 0x00280004, kFrames = 0x00280008, kRows = 0x00280010;

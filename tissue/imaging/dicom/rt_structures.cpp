@@ -110,9 +110,9 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   SegmentLayers layers(grid.size, grid.index_to_ras_mm, file);
   std::vector<std::string> notes;
   std::uint64_t crossings = 0;
-  int number = 0;
+  std::size_t done = 0;
   for (const Structure& structure : structures) {
-    report(progress, "structures", static_cast<double>(number++) / static_cast<double>(structures.size()));
+    report(progress, "structures", static_cast<double>(done++) / static_cast<double>(structures.size()));
     if (structure.others > 0)
       notes.push_back("Left out of " + called(structure) + ": " + std::to_string(structure.others) +
                       " points or open lines, which enclose nothing.");
@@ -121,7 +121,7 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
     require_fillable(planes, grid, structure, file, crossings);
     const Filling filling = filled(planes, grid);
     note_filling(structure, filling, planes.size(), notes);
-    layers.add(number, structure.name, filling.mask);
+    layers.add({0, static_cast<int>(done), structure.name, structure.colour, structure.codes}, filling.mask);
   }
   LabelMap map = layers.take();
   if (map.layers.empty())
@@ -132,11 +132,26 @@ LabelMap filled_on(const ContourGrid& grid, const std::vector<Structure>& struct
   return map;
 }
 
+/// Takes the contours of all but the wanted structures away; theirs decide the grid then, not the whole body's. All
+/// stay when none of the words is one of theirs: the one who asks gets to see what there is.
+void keep_wanted(std::vector<Structure>& structures, const std::vector<std::string>& wanted) {
+  std::vector<bool> kept;
+  for (std::size_t n = 0; n < structures.size(); ++n)
+    kept.push_back(std::any_of(wanted.begin(), wanted.end(), [&](const std::string& word) {
+      return word == std::to_string(n + 1) ||
+             (!folded_name(word).empty() && folded_name(word) == folded_name(structures[n].name));
+    }));
+  if (std::none_of(kept.begin(), kept.end(), [](bool one) { return one; })) return;
+  for (std::size_t n = 0; n < structures.size(); ++n)
+    if (!kept[n]) structures[n].closed.clear(), structures[n].others = 0;
+}
+
 std::vector<Structure> structures_with_contours(const DicomStudy& study, const Progress& progress,
-                                                std::optional<int> series) {
+                                                std::optional<int> series, const std::vector<std::string>& wanted) {
   const std::filesystem::path& path = study.path();
   std::vector<Structure> structures = read_structures(study, progress, series);
   if (structures.size() > 65535) throw InputError(path.string() + ": holds more than 65535 structures");
+  keep_wanted(structures, wanted);
   const bool any =
       std::any_of(structures.begin(), structures.end(), [](const Structure& one) { return !one.closed.empty(); });
   if (!any) throw InputError(path.string() + ": holds no closed contours: nothing to fill");
@@ -155,16 +170,17 @@ LabelMap read_rtstruct(const std::filesystem::path& path, const Progress& progre
 }
 
 LabelMap read_rtstruct(const DicomStudy& study, const ImageVolume& grid, const Progress& progress,
-                       std::optional<int> series) {
-  const std::vector<Structure> structures = structures_with_contours(study, progress, series);
+                       std::optional<int> series, const std::vector<std::string>& wanted) {
+  const std::vector<Structure> structures = structures_with_contours(study, progress, series, wanted);
   const std::string file = study.path().string();
   LabelMap map = filled_on(image_contour_grid(grid, structures, file), structures, file, progress);
   map.modality = grid.modality;
   return map;
 }
 
-LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress, std::optional<int> series) {
-  const std::vector<Structure> structures = structures_with_contours(study, progress, series);
+LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress, std::optional<int> series,
+                       const std::vector<std::string>& wanted) {
+  const std::vector<Structure> structures = structures_with_contours(study, progress, series, wanted);
   const std::string file = study.path().string();
   const ContourGrid grid = own_contour_grid(structures, file);
   LabelMap map = filled_on(grid, structures, file, progress);

@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tissue/imaging/labels/label_map.h"
 #include "tissue/imaging/volumes/image_volume.h"
@@ -27,8 +29,13 @@ LabelMap read_rtstruct(const std::filesystem::path& input, const ImageVolume& gr
 /// @throws InputError as above; also when the planes of the contours are not evenly spaced or not parallel
 LabelMap read_rtstruct(const std::filesystem::path& input, const Progress& progress = {},
                        std::optional<int> series = {});
+/// Of a study that was looked at. The label of a structure is its place in the list (from 1): numbers of structures may
+/// be any.
+/// @param wanted names or places of the structures to fill; those alone decide a grid of their own. Empty: all; all too
+/// when none fits
 LabelMap read_rtstruct(const DicomStudy& study, const ImageVolume& grid, const Progress& progress = {},
-                       std::optional<int> series = {});
-LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress = {}, std::optional<int> series = {});
+                       std::optional<int> series = {}, const std::vector<std::string>& wanted = {});
+LabelMap read_rtstruct(const DicomStudy& study, const Progress& progress = {}, std::optional<int> series = {},
+                       const std::vector<std::string>& wanted = {});
 
 }  // namespace trocar

@@ -17,7 +17,7 @@ bool SegmentLayers::free(const LabelVolume& layer, const SegmentMask& mask) cons
   return true;
 }
 
-void SegmentLayers::add(int number, const std::string& segment_name, const SegmentMask& mask) {
+void SegmentLayers::add(Segment segment, const SegmentMask& mask) {
   if (mask.empty()) return;
   std::size_t layer = 0;
   while (layer < map_.layers.size() && !free(map_.layers[layer], mask)) ++layer;
@@ -32,8 +32,9 @@ void SegmentLayers::add(int number, const std::string& segment_name, const Segme
   LabelVolume& target = map_.layers[layer];
   const std::size_t end = target.offset(0, 0, mask.last_slice + 1);
   for (std::size_t n = target.offset(0, 0, mask.first_slice); n < end; ++n)
-    if (mask.voxels[n]) target.labels[n] = static_cast<std::uint16_t>(number);
-  map_.segments.push_back({layer, number, segment_name});
+    if (mask.voxels[n]) target.labels[n] = static_cast<std::uint16_t>(segment.number);
+  segment.layer = layer;
+  map_.segments.push_back(std::move(segment));
 }
 
 LabelMap SegmentLayers::take() {

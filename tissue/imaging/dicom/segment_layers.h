@@ -34,7 +34,8 @@ class SegmentLayers {
   SegmentLayers(const std::array<int, 3>& size, const Eigen::Affine3d& frame, std::string name);
 
   /// @throws InputError when so many segments overlap that their layers would be larger than an import may hold
-  void add(int number, const std::string& segment_name, const SegmentMask& mask);
+  /// @param segment its layer is found here
+  void add(Segment segment, const SegmentMask& mask);
   /// Layers in RAS order; empty when nothing was added.
   LabelMap take();
 

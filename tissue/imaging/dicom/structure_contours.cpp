@@ -4,7 +4,6 @@
 #include <dcmtk/dcmrt/drtstrct.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -14,19 +13,13 @@
 #include "tissue/imaging/dicom/dicom_catalogue.h"
 #include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/packed_bytes.h"
+#include "tissue/imaging/dicom/packed_segment.h"
 
 namespace trocar {
 namespace {
 
 constexpr double kFarthestContour = 1e5;  // mm
 constexpr std::uint64_t kMostBytes = std::uint64_t{512} << 20;
-
-std::string printable(const OFString& name) {
-  std::string text(name.c_str());
-  for (char& letter : text)
-    if (std::iscntrl(static_cast<unsigned char>(letter)) != 0) letter = ' ';
-  return text.substr(0, 64);
-}
 
 bool closed(const DRTContourSequence::Item& contour) {
   OFString type;
@@ -43,28 +36,56 @@ void pack_contour(PackedWriter& out, DRTContourSequence::Item& contour) {
   for (std::size_t n = 0; n < 3 * points; ++n) out.put(static_cast<double>(numbers[n]));
 }
 
-void pack_structure(PackedWriter& out, DRTROIContourSequence::Item& item, const std::map<int, std::string>& names) {
+std::optional<SegmentColour> display_colour(const DRTROIContourSequence::Item& item) {
+  SegmentColour colour{};
+  for (std::size_t part = 0; part < 3; ++part) {
+    Sint32 value = -1;
+    if (item.getROIDisplayColor(value, part).bad() || value < 0 || value > 255) return std::nullopt;
+    colour[part] = static_cast<std::uint8_t>(value);
+  }
+  return colour;
+}
+
+void pack_structure(PackedWriter& out, DRTROIContourSequence::Item& item, const std::map<int, Segment>& told) {
   Sint32 number = 0;
   item.getReferencedROINumber(number);
-  const auto name = names.find(number);
+  const auto found = told.find(number);
   DRTContourSequence& contours = item.getContourSequence();
-  out.put(static_cast<std::int32_t>(number));
-  out.put_text(name != names.end() ? name->second : "");
+  Segment segment = found != told.end() ? found->second : Segment{};
+  segment.number = number;
+  segment.colour = display_colour(item);
+  put_segment(out, segment);
   out.put(static_cast<std::uint64_t>(contours.getNumberOfItems()));
   for (std::size_t n = 0; n < contours.getNumberOfItems(); ++n) pack_contour(out, contours.getItem(n));
 }
 
-std::map<int, std::string> names_of(DRTStructureSetIOD& set) {
-  std::map<int, std::string> names;
+/// Names and codes by the numbers of the structures.
+std::map<int, Segment> told_of_structures(DRTStructureSetIOD& set) {
+  std::map<int, Segment> told;
   DRTStructureSetROISequence& list = set.getStructureSetROISequence();
   for (std::size_t n = 0; n < list.getNumberOfItems(); ++n) {
     Sint32 number = 0;
     OFString name;
     list.getItem(n).getROINumber(number);
     list.getItem(n).getROIName(name);
-    names.try_emplace(number, printable(name));
+    told.try_emplace(number, Segment{0, number, readable_name(name.c_str())});
   }
-  return names;
+  DRTRTROIObservationsSequence& observations = set.getRTROIObservationsSequence();
+  for (std::size_t n = 0; n < observations.getNumberOfItems(); ++n) {
+    Sint32 number = 0;
+    observations.getItem(n).getReferencedROINumber(number);
+    DRTRTROIIdentificationCodeSequence& codes = observations.getItem(n).getRTROIIdentificationCodeSequence();
+    for (std::size_t c = 0; c < codes.getNumberOfItems(); ++c) {
+      OFString scheme, value, meaning;
+      codes.getItem(c).getCodingSchemeDesignator(scheme);
+      codes.getItem(c).getCodeValue(value);
+      codes.getItem(c).getCodeMeaning(meaning);
+      if (!value.empty())
+        told[number].codes.push_back(
+            {"type", readable_name(scheme.c_str()), readable_name(value.c_str()), readable_name(meaning.c_str())});
+    }
+  }
+  return told;
 }
 
 std::string load_structures(const std::filesystem::path& path, const std::string& file) {
@@ -75,10 +96,10 @@ std::string load_structures(const std::filesystem::path& path, const std::string
   if (condition.good()) condition = set.read(*format.getDataset());
   if (condition.bad()) throw InputError(file + ": dcmrt refuses this structure set: " + std::string(condition.text()));
   PackedWriter out;
-  const std::map<int, std::string> names = names_of(set);
+  const std::map<int, Segment> told = told_of_structures(set);
   DRTROIContourSequence& list = set.getROIContourSequence();
   out.put(static_cast<std::uint64_t>(list.getNumberOfItems()));
-  for (std::size_t n = 0; n < list.getNumberOfItems(); ++n) pack_structure(out, list.getItem(n), names);
+  for (std::size_t n = 0; n < list.getNumberOfItems(); ++n) pack_structure(out, list.getItem(n), told);
   return out.take();
 }
 
@@ -96,8 +117,9 @@ Contour unpacked_contour(PackedReader& in, const std::string& file) {
 
 Structure unpacked_structure(PackedReader& in, const std::string& file) {
   Structure structure;
-  structure.number = in.get<std::int32_t>();
-  structure.name = std::string(in.get_text());
+  Segment told = get_segment(in);
+  structure.number = told.number, structure.name = std::move(told.name);
+  structure.colour = told.colour, structure.codes = std::move(told.codes);
   for (std::uint64_t left = in.get_count(8); left > 0; --left) {
     Contour contour = unpacked_contour(in, file);
     if (contour.empty()) ++structure.others;

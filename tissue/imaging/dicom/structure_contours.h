@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tissue/imaging/dicom/dicom_study.h"
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/progress.h"
 
 namespace trocar {
@@ -21,6 +22,8 @@ struct Structure {
   std::string name;
   std::vector<Contour> closed;  ///< CLOSED_PLANAR and CLOSEDPLANAR_XOR, three points at least, finite
   int others = 0;               ///< points, open lines, contours of fewer than three points
+  std::optional<SegmentColour> colour = {};
+  std::vector<SegmentCode> codes = {};
 };
 
 /// By number; structures without any contour are among them.

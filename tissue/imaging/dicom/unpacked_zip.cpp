@@ -43,8 +43,10 @@ bool may_be_dicom(std::string_view start) {
 /// Runs in the child: nothing of it outlives the process but the files that it writes.
 class Unpacking {
  public:
-  Unpacking(std::string name, const std::filesystem::path& folder, const ZipLimits& limits, std::uint64_t archive_bytes)
+  Unpacking(std::string name, const std::filesystem::path& folder, const ZipLimits& limits, std::uint64_t archive_bytes,
+            UnpackedZip::Wanted wanted)
       : name_(std::move(name)),
+        wanted_(std::move(wanted)),
         folder_(folder),
         limits_(limits),
         most_(limits.free_bytes + limits.ratio * archive_bytes) {}
@@ -73,7 +75,7 @@ class Unpacking {
       refuse("is encrypted: unpack it with its password and give the folder");
     const Entry entry(zip_fopen_index(archive, index, 0));
     if (!entry) refuse("holds a file that cannot be unpacked (" + std::string(zip_strerror(archive)) + ")");
-    copy_if_dicom(entry.get(), index, entry_name);
+    if (!wanted_ || wanted_(entry_name)) copy_entry(entry.get(), index, entry_name);
   }
 
   std::size_t read_block(zip_file_t* entry) {
@@ -92,9 +94,9 @@ class Unpacking {
     return filled;
   }
 
-  void copy_if_dicom(zip_file_t* entry, zip_uint64_t index, const std::string& entry_name) {
+  void copy_entry(zip_file_t* entry, zip_uint64_t index, const std::string& entry_name) {
     std::size_t count = read_block(entry);
-    if (!may_be_dicom({block_.data(), count})) return;
+    if (!wanted_ && !may_be_dicom({block_.data(), count})) return;
     std::ofstream out(folder_ / std::to_string(index), std::ios::binary);
     for (std::uint64_t written = 0; count > 0; count = read_block(entry)) {
       if ((written += count) > limits_.file_bytes)
@@ -107,6 +109,7 @@ class Unpacking {
   }
 
   std::string name_;
+  UnpackedZip::Wanted wanted_;
   std::filesystem::path folder_;
   ZipLimits limits_;
   std::uint64_t most_, all_ = 0;
@@ -129,12 +132,14 @@ UnpackedZip::Folder::~Folder() {
   std::filesystem::remove_all(path, ignored);
 }
 
-UnpackedZip::UnpackedZip(const std::filesystem::path& archive, const ZipLimits& limits, const Progress& progress) {
+UnpackedZip::UnpackedZip(const std::filesystem::path& archive, const ZipLimits& limits, const Progress& progress,
+                         const Wanted& wanted) {
   const std::string name = archive.string();
   const std::uint64_t bytes = ByteSource(archive, name).size();
   report(progress, "unpacking", -1);
-  const std::string list = in_child(name, ChildLimits{}, progress,
-                                    [&] { return Unpacking(name, folder_.path, limits, bytes).unpack(archive); });
+  const std::string list = in_child(name, ChildLimits{}, progress, [&] {
+    return Unpacking(name, folder_.path, limits, bytes, wanted).unpack(archive);
+  });
   for (std::size_t from = 0; from < list.size();) {
     const std::size_t space = list.find(' ', from), end = list.find('\n', from);
     files_.push_back({folder_.path / list.substr(from, space - from), list.substr(space + 1, end - space - 1)});
@@ -145,6 +150,26 @@ UnpackedZip::UnpackedZip(const std::filesystem::path& archive, const ZipLimits& 
 }
 
 UnpackedZip::~UnpackedZip() = default;
+
+std::vector<std::string> names_in_zip(const std::filesystem::path& archive, const Progress& progress) {
+  const std::string list = in_child(archive.string(), ChildLimits{}, progress, [&] {
+    int error = 0;
+    const Archive opened(zip_open(archive.c_str(), ZIP_RDONLY, &error));
+    if (!opened) throw InputError(archive.string() + ": the archive is damaged, or no zip archive");
+    const zip_int64_t most = std::min<zip_int64_t>(zip_get_num_entries(opened.get(), 0), ZipLimits{}.entries);
+    std::string names;
+    for (zip_int64_t n = 0; n < most; ++n)
+      names += printable_name(zip_get_name(opened.get(), static_cast<zip_uint64_t>(n), 0)) + "\n";
+    return names;
+  });
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from < list.size();) {
+    const std::size_t end = list.find('\n', from);
+    if (end > from && list[end - 1] != '/') names.push_back(list.substr(from, end - from));
+    from = end + 1;
+  }
+  return names;
+}
 
 bool is_zip(const std::filesystem::path& file) {
   ByteSource source(file, file.string());

@@ -30,7 +30,9 @@ std::string name_of(const Segment& segment, const LabelTable* table) {
 }
 
 Segment named(const Segment& segment, const LabelTable* table) {
-  return {segment.layer, segment.number, name_of(segment, table)};
+  Segment called = segment;
+  called.name = name_of(segment, table);
+  return called;
 }
 
 [[noreturn]] void refuse_name(const LabelMap& map, std::string_view wanted, const LabelTable* table,
@@ -120,6 +122,10 @@ Segment choose_segment(const LabelMap& map, std::string_view wanted, const Label
   const auto number = whole_label(wanted);
   for (const Segment& segment : map.segments)
     if (number ? segment.number == *number : name_of(segment, table) == wanted) found.push_back(named(segment, table));
+  if (found.empty() && !number)  // "Liver" for "liver"
+    for (const Segment& segment : map.segments)
+      if (folded_name(name_of(segment, table)) == folded_name(wanted) && !folded_name(wanted).empty())
+        found.push_back(named(segment, table));
   if (!found.empty()) return only_one(found, wanted, file);
   if (number)
     throw InputError(file + ": label " + std::to_string(*number) + " marks no voxel; it holds " +

@@ -9,14 +9,9 @@
 #include <vector>
 
 #include "tissue/imaging/labels/label_volume.h"
+#include "tissue/imaging/labels/segment.h"
 
 namespace trocar {
-
-struct Segment {
-  std::size_t layer = 0;
-  int number = 0;    ///< in that layer
-  std::string name;  ///< as the file gives it; "" when it gives none (a bare label map)
-};
 
 struct LabelMap {
   std::vector<LabelVolume> layers;   ///< each in RAS order, never empty

@@ -201,10 +201,12 @@ std::string unit_hint(const Eigen::Vector3d& spacing, const std::array<int, 3>& 
   const Eigen::Vector3d whole = spacing.cwiseProduct(Eigen::Vector3d(size[0], size[1], size[2]));
   std::string hint = "; the image measures " + plain(whole[0]) + " x " + plain(whole[1]) + " x " + plain(whole[2]) +
                      ": of which unit? Say so with --unit (";
-  for (const char* unit : {"cm", "dm", "m"})
-    hint += std::string(unit) + " makes it " + plain(whole.maxCoeff() * millimetres_in(unit, "", "")) + " mm long" +
-            (std::string_view(unit) == "m" ? ")" : ", ");
-  return hint;
+  const bool large = spacing.maxCoeff() > 100;  // millimetres would be metres: no unit above them will do
+  std::string choices;
+  for (const char* unit : large ? std::vector<const char*>{"um"} : std::vector<const char*>{"cm", "dm", "m"})
+    choices += (choices.empty() ? "" : ", ") + std::string(unit) + " makes it " +
+               plain(whole.maxCoeff() * millimetres_in(unit, "", "")) + " mm long";
+  return hint + choices + ")";
 }
 
 double meta_unit_mm(const MetaText& meta, const VolumeReading& reading, std::vector<std::string>& notes) {
@@ -221,6 +223,10 @@ void read_meta_frame(const MetaText& meta, const VolumeReading& reading, VolumeH
   const std::string key = meta.first_of({"ElementSpacing", "ElementSize"});
   if (key.empty()) meta.refuse("ElementSpacing", "missing: how large is a voxel?");
   const Eigen::Vector3d spacing = triple(meta, key);
+  if (spacing.minCoeff() < 0)
+    meta.refuse(key,
+                "negative along an axis: whether it runs the other way or is a slip nobody can tell; "
+                "directions belong into TransformMatrix");
   const double scale = meta_unit_mm(meta, reading, volume.notes);
   const Eigen::Matrix3d directions = meta_directions(meta, volume.notes);
   const Eigen::Vector3d lps_signs(-1, -1, 1);

@@ -6,6 +6,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/volumes/gzip_stream.h"
 #include "tissue/imaging/volumes/nifti_fields.h"
+#include "tissue/imaging/volumes/nifti_labels.h"
 #include "tissue/imaging/volumes/volume_frame.h"
 #include "tissue/imaging/volumes/voxel_stream.h"
 
@@ -125,15 +126,15 @@ double largest_corner_shift(const NiftiHeader& header, const Eigen::Affine3d& ot
 }
 
 void read_nifti_frame(const NiftiFields& fields, const std::string& file, NiftiHeader& header) {
+  const int unit = fields.units & 7;
+  if (unit == 0) header.notes.push_back("xyzt_units says no unit; millimetres assumed");
+  if (unit == 1 || unit == 3)
+    refuse_header(file, "xyzt_units", "lengths in metres or micrometres; millimetres are wanted");
   const Eigen::Vector3d pixdim = read_pixdim(fields, file);
   const int qform = fields.qform, sform = fields.sform;
   if (qform < 0 || qform > 5 || sform < 0 || sform > 5) refuse_header(file, "qform_code/sform_code", "unknown code");
   if (qform == 0 && sform == 0)
     refuse_header(file, "qform_code/sform_code", "both 0: the file does not say where left and right are");
-  const int unit = fields.units & 7;
-  if (unit == 0) header.notes.push_back("xyzt_units says no unit; millimetres assumed");
-  if (unit == 1 || unit == 3)
-    refuse_header(file, "xyzt_units", "lengths in metres or micrometres; millimetres are wanted");
   header.index_to_ras_mm = sform > 0 ? sform_of(fields) : qform_of(fields, pixdim);
   header.frame_source = sform > 0 ? "sform " + std::to_string(sform) : "qform " + std::to_string(qform);
   check_frame(header.index_to_ras_mm, sform > 0 ? "srow" : "quatern", file, "", header.notes);
@@ -177,6 +178,7 @@ VolumeHeader described(const NiftiHeader& header, const fs::path& path) {
   volume.size = header.size;
   volume.index_to_ras_mm = header.index_to_ras_mm;
   volume.notes = header.notes;
+  volume.segments = header.labels;
   volume.block.file = path;
   volume.block.type = nifti_voxel_type(header.type);
   volume.block.swapped = header.swapped;
@@ -186,6 +188,19 @@ VolumeHeader described(const NiftiHeader& header, const fs::path& path) {
   volume.block.encoding = gzip ? VoxelEncoding::kDeflated : VoxelEncoding::kRaw;
   (gzip ? volume.block.skipped : volume.block.offset) = static_cast<std::uint64_t>(header.data_offset);
   return volume;
+}
+
+/// What follows the header, up to the voxels; of a pair, to the end of its header file.
+void read_extensions(GzipStream& stream, std::vector<unsigned char>& bytes, NiftiHeader& header) {
+  constexpr std::size_t kMost = std::size_t{16} << 20;
+  const std::size_t from = header.version == 1 ? kNifti1Bytes : kNifti2Bytes;
+  const std::size_t end = header.pair ? kMost : static_cast<std::size_t>(header.data_offset), got = bytes.size();
+  if (end > got) {
+    bytes.resize(end);
+    bytes.resize(got + stream.read(bytes.data() + got, end - got));
+  }
+  if (const std::size_t last = std::min(end, bytes.size()); last > from)
+    header.labels = nifti_labels(std::span(bytes).subspan(from, last - from), header.swapped, header.notes);
 }
 
 NiftiHeader open_header(const fs::path& path) {
@@ -210,6 +225,8 @@ NiftiHeader open_header(const fs::path& path) {
                   pair ? "a header of a single file (.nii) under the name of a .hdr/.img pair"
                        : "a header of a .hdr/.img pair under the name of a single file");
   header.gzip = named_gzip;
+  bytes.resize(got);
+  read_extensions(stream, bytes, header);
   return header;
 }
 

@@ -44,6 +44,7 @@ struct NiftiHeader {
   double intercept = 0;
   Eigen::Affine3d index_to_ras_mm = Eigen::Affine3d::Identity();
   std::string frame_source;        ///< "sform 2" or "qform 1": which transform placed the image
+  std::vector<Segment> labels;     ///< that a header extension names (nifti_labels.h); of a file, not of bare bytes
   std::vector<std::string> notes;  ///< what was odd but usable, one sentence each
 
   std::size_t voxel_count() const;

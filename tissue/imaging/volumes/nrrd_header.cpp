@@ -198,6 +198,7 @@ Eigen::Matrix3d nrrd_directions(const NrrdFields& header, const Axes& axes) {
   for (int n = 0; n < 3; ++n) {
     const auto& spacing = spacings[axes.spatial[static_cast<std::size_t>(n)]];
     if (!spacing) header.refuse("spacings", "none for an axis that lies in space");
+    if (*spacing < 0) header.refuse("spacings", "negative: write the direction of an axis into space directions");
     linear(n, n) = *spacing;
   }
   return linear;
@@ -298,7 +299,7 @@ VolumeHeader nrrd_volume_header(const fs::path& path, const VolumeReading& readi
   volume.components = static_cast<int>(components);
   volume.component_axis = axes.component_axis;
   read_nrrd_frame(header, axes, reading, volume);
-  volume.segments = nrrd_segments(header, volume.components);
+  volume.segments = nrrd_segments(header, volume.components, volume.notes);
   volume.segmentation = !volume.segments.empty();
   volume.block = voxel_block(header, path);
   return volume;

@@ -16,8 +16,11 @@ namespace trocar {
 /// @throws InputError naming file, line and field
 VolumeHeader nrrd_volume_header(const std::filesystem::path& path, const VolumeReading& reading);
 
-/// The SegmentN_... keys. @param components values a voxel; @throws InputError for a number or layer that cannot be
-std::vector<NamedSegment> nrrd_segments(const NrrdFields& header, int components);
+/// The SegmentN_... keys: numbers, layers, names, colours, terminology. Of several segments in one layer, one without a
+/// number is left out: it could be any.
+/// @param components values a voxel @param notes what was left out
+/// @throws InputError for a number or layer that cannot be
+std::vector<Segment> nrrd_segments(const NrrdFields& header, int components, std::vector<std::string>& notes);
 
 /// The voxel file that a header names, beside the header or in a folder below it.
 /// @throws InputError for an absolute name, one that leads out of the folder, patterns and lists of files, a missing

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
+#include <sstream>
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/volumes/nrrd_header.h"
@@ -10,7 +12,7 @@ namespace {
 
 struct SegmentEntry {
   std::optional<int> number, layer;
-  std::string name;
+  Segment told;  ///< name, colour and codes
   int line = 0;
 };
 
@@ -20,12 +22,41 @@ std::optional<int> whole_number(std::string_view text) {
   return error == std::errc() && stop == text.data() + text.size() ? std::optional<int>(value) : std::nullopt;
 }
 
-/// A name for a person to read: no control characters, not longer than a line.
-std::string readable(std::string text) {
-  for (char& letter : text)
-    if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = ' ';
-  if (text.size() > 80) text.resize(80);
-  return text;
+/// "0.5 0.2 1": parts of one. An unreadable colour is none.
+std::optional<SegmentColour> colour_in(const std::string& text) {
+  std::istringstream in(text);
+  double red = -1, green = -1, blue = -1;
+  in >> red >> green >> blue;
+  return in ? colour_of(red, green, blue) : std::nullopt;
+}
+
+std::vector<std::string> parts_at(std::string_view text, char mark) {
+  std::vector<std::string> parts(1);
+  for (const char letter : text) {
+    if (letter == mark)
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  }
+  return parts;
+}
+
+/// The tag "TerminologyEntry" as 3D Slicer writes it: CONTEXT~category~type~modifier~CONTEXT~region~modifier, each a
+/// code SCHEME^VALUE^MEANING.
+std::vector<SegmentCode> codes_in(const std::string& tags) {
+  constexpr std::string_view kTag = "TerminologyEntry:";
+  constexpr std::array<const char*, 7> kRoles{"", "category", "type", "type modifier", "", "region", "region modifier"};
+  std::vector<SegmentCode> codes;
+  const std::size_t at = tags.find(kTag);
+  if (at == std::string::npos) return codes;
+  const std::size_t from = at + kTag.size(), end = std::min(tags.find('|', from), tags.size());
+  const std::vector<std::string> entries = parts_at(std::string_view(tags).substr(from, end - from), '~');
+  for (std::size_t n = 0; n < std::min(entries.size(), kRoles.size()); ++n) {
+    const std::vector<std::string> code = parts_at(entries[n], '^');
+    if (*kRoles[n] != 0 && code.size() == 3 && !code[1].empty())
+      codes.push_back({kRoles[n], readable_name(code[0]), readable_name(code[1]), readable_name(code[2])});
+  }
+  return codes;
 }
 
 int wanted_number(const NrrdFields& header, const std::string& key, const NrrdText& value, int least, int most) {
@@ -48,7 +79,9 @@ std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
     const std::string what = key.substr(bar + 1);
     SegmentEntry& entry = entries[*index];
     entry.line = std::max(entry.line, value.line);
-    if (what == "Name") entry.name = readable(value.text);
+    if (what == "Name") entry.told.name = readable_name(value.text);
+    if (what == "Color") entry.told.colour = colour_in(value.text);
+    if (what == "Tags") entry.told.codes = codes_in(value.text);
     if (what == "LabelValue") entry.number = wanted_number(header, key, value, 1, 65535);
     if (what == "Layer") entry.layer = wanted_number(header, key, value, 0, 65535);
   }
@@ -57,23 +90,29 @@ std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
 
 }  // namespace
 
-std::vector<NamedSegment> nrrd_segments(const NrrdFields& header, int components) {
+std::vector<Segment> nrrd_segments(const NrrdFields& header, int components, std::vector<std::string>& notes) {
   const std::map<int, SegmentEntry> entries = entries_of(header);
-  std::vector<NamedSegment> segments;
+  std::vector<Segment> segments;
   for (const auto& [index, entry] : entries) {
     const bool old_style = !entry.layer && !entry.number && components > 1;  // before Slicer 4.11: one component each
-    const int number = entry.number.value_or(old_style || components > 1 ? 1 : index + 1);
-    const int layer = entry.layer.value_or(old_style ? index : 0);
-    if (layer >= components)
+    if (!entry.number && components == 1 && entries.size() > 1) {
+      notes.push_back("Segment" + std::to_string(index) + " (\"" + entry.told.name +
+                      "\") has no LabelValue: which number is meant cannot be told, and none was given its name");
+      continue;
+    }
+    Segment segment = entry.told;
+    segment.number = entry.number.value_or(1);
+    segment.layer = static_cast<std::size_t>(entry.layer.value_or(old_style ? index : 0));
+    if (segment.layer >= static_cast<std::size_t>(components))
       throw InputError(header.file, entry.line, 1,
-                       "Segment" + std::to_string(index) + "_Layer: layer " + std::to_string(layer) + " of " +
+                       "Segment" + std::to_string(index) + "_Layer: layer " + std::to_string(segment.layer) + " of " +
                            std::to_string(components));
-    for (const NamedSegment& other : segments)
-      if (other.number == number && other.layer == static_cast<std::size_t>(layer))
+    for (const Segment& other : segments)
+      if (other.number == segment.number && other.layer == segment.layer)
         throw InputError(header.file, entry.line, 1,
                          "Segment" + std::to_string(index) + "_LabelValue: another segment has number " +
-                             std::to_string(number) + " in that layer");
-    segments.push_back({number, static_cast<std::size_t>(layer), entry.name});
+                             std::to_string(segment.number) + " in that layer");
+    segments.push_back(std::move(segment));
   }
   return segments;
 }

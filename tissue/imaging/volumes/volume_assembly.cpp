@@ -179,10 +179,23 @@ class LabelTaker {
   std::size_t distinct_ = 0, taken_ = 0;
 };
 
-std::string part_name(const VolumeHeader& header, std::size_t layer, int number) {
-  for (const NamedSegment& segment : header.segments)
-    if (segment.layer == layer && segment.number == number) return segment.name;
-  return "";
+/// What the header tells of a number; the bare number when it tells nothing.
+Segment told_of(const VolumeHeader& header, std::size_t layer, int number) {
+  for (const Segment& segment : header.segments)
+    if (segment.layer == layer && segment.number == number) return segment;
+  return {layer, number};
+}
+
+/// Segments that mark no voxel, in one sentence: a table names every organ that could be.
+void note_unmarked(const std::vector<std::string>& names, std::vector<std::string>& notes) {
+  constexpr std::size_t kListed = 3;
+  if (names.empty()) return;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), kListed); ++n)
+    text += (n > 0 ? ", " : "") + ("\"" + names[n] + "\"");
+  if (names.size() > kListed) text += " and " + std::to_string(names.size() - kListed) + " more";
+  notes.push_back(names.size() == 1 ? "segment " + text + " marks no voxel and was left out"
+                                    : "segments " + text + " mark no voxel and were left out");
 }
 
 /// Segments in the order of layer and number; layers without any are left out.
@@ -192,15 +205,16 @@ void list_segments(const VolumeHeader& header, const LabelTaker& taker, LabelMap
     std::size_t marked = 0;
     for (std::size_t number = 1; number < 65536; ++number) {
       if (taker.counts(layer)[number] == 0) continue;
-      map.segments.push_back(
-          {layers.size(), static_cast<int>(number), part_name(header, layer, static_cast<int>(number))});
+      map.segments.push_back(told_of(header, layer, static_cast<int>(number)));
+      map.segments.back().layer = layers.size();
       ++marked;
     }
     if (marked > 0) layers.push_back(std::move(map.layers[layer]));
   }
-  for (const NamedSegment& segment : header.segments)
-    if (taker.counts(segment.layer)[static_cast<std::size_t>(segment.number)] == 0)
-      map.notes.push_back("segment \"" + segment.name + "\" marks no voxel and was left out");
+  std::vector<std::string> unmarked;
+  for (const Segment& segment : header.segments)
+    if (taker.counts(segment.layer)[static_cast<std::size_t>(segment.number)] == 0) unmarked.push_back(segment.name);
+  note_unmarked(unmarked, map.notes);
   map.layers = std::move(layers);
 }
 
@@ -258,7 +272,6 @@ LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress) {
   });
   note_rest(header, more, map.notes);
   list_segments(header, taker, map);
-  if (map.segments.empty()) refuse_assembly(header, "the label map is empty (all voxels are 0)");
   return map;
 }
 

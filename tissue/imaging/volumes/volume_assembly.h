@@ -15,7 +15,8 @@ namespace trocar {
 /// damaged or missing data
 ImageVolume assemble_image(const VolumeHeader& header, const Progress& progress, std::uint64_t most = kMostVoxels);
 
-/// One layer a component, as stored (sheared axes stay). @throws InputError for what is no label map
+/// One layer a component, as stored (sheared axes stay); no layer and no segment when all voxels are 0. @throws
+/// InputError for what is no label map
 LabelMap assemble_labels(const VolumeHeader& header, const Progress& progress);
 
 }  // namespace trocar

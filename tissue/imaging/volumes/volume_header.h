@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/labels/segment.h"
+
 namespace trocar {
 
 enum class VoxelType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
@@ -30,12 +32,6 @@ struct VoxelBlock {
   double slope = 1, intercept = 0;  ///< value = slope * stored + intercept
 };
 
-struct NamedSegment {
-  int number = 0;
-  std::size_t layer = 0;
-  std::string name;
-};
-
 struct VolumeHeader {
   std::string format;         ///< "NIfTI-1", for messages
   std::array<int, 3> size{};  ///< voxels along the three stored axes that lie in space
@@ -44,8 +40,8 @@ struct VolumeHeader {
   Eigen::Affine3d index_to_ras_mm = Eigen::Affine3d::Identity();
   VoxelBlock block;
   std::string modality = "unknown";
-  bool segmentation = false;  ///< the header names segments (.seg.nrrd)
-  std::vector<NamedSegment> segments;
+  bool segmentation = false;      ///< the header names segments (.seg.nrrd)
+  std::vector<Segment> segments;  ///< that the header tells of, whether they mark a voxel or not
   std::vector<std::string> notes;
 
   std::uint64_t value_count() const;

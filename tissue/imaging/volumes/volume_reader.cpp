@@ -124,6 +124,10 @@ ImageVolume read_image_volume(const fs::path& path, const Progress& progress, co
 
 LabelMap read_label_map(const fs::path& path, const Progress& progress, const VolumeReading& reading) {
   LabelMap map = assemble_labels(header_of(path, reading), progress);
+  if (map.segments.empty()) {
+    if (reading.may_be_empty) return map;
+    throw InputError(path.string() + ": data: the label map is empty (all voxels are 0)");
+  }
   if (lower_case(path.filename().string()).ends_with(".seg.nrrd") && map.segments.front().name.empty())
     map.notes.push_back("named as a segmentation (.seg.nrrd), but its header names no segment");
   straighten(map, progress);

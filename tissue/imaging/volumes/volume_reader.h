@@ -23,6 +23,7 @@ namespace trocar {
 struct VolumeReading {
   std::string unit;   ///< "mm", "cm", "dm", "m", "um": of the lengths in the file; "" what the file says or implies
   std::string space;  ///< "RAS", "LPS", "LAS": of a NRRD that names no space; "" such a file is refused
+  bool may_be_empty = false;  ///< a label map that marks no voxel comes back without segments instead of being refused
 };
 
 /// No reader makes more label voxels than this over all layers: 1 GiB (a 512 x 512 x 2000 map and a little).

@@ -87,6 +87,14 @@ std::string slicer_space(std::string_view comment) {
   return {};
 }
 
+void take_space(const std::string& letters, SurfaceFile& result, const std::string& file) {
+  if (letters != "RAS" && letters != "LPS")
+    throw InputError(file + ": its field SPACE says \"" + printable(letters) +
+                     "\", where 3D Slicer writes RAS or LPS: export it again from a program that knows its axes");
+  result.frame = letters;
+  result.frame_source = "the field SPACE says " + letters + ", as 3D Slicer writes it";
+}
+
 void check_count(std::uint64_t count, std::uint64_t most, const char* what, const std::string& file) {
   if (count > most)
     throw InputError(file + ": " + std::to_string(count) + " " + what + " are more than the " + std::to_string(most) +

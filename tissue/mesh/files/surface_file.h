@@ -58,6 +58,9 @@ std::string printable(std::string_view name);
 
 /// "RAS" or "LPS" where a comment of 3D Slicer says "SPACE=RAS", "" where it says nothing.
 std::string slicer_space(std::string_view comment);
+/// Takes the frame from the field "SPACE" that 3D Slicer writes into VTK files.
+/// @throws InputError for anything but RAS and LPS: axes that it names and nobody knows are no reason to take others
+void take_space(const std::string& letters, SurfaceFile& result, const std::string& file);
 
 /// @throws InputError naming the file when the count is above the cap: "7000000 triangles are more than the 5000000
 /// ..."

@@ -118,11 +118,40 @@ class LegacyReader {
     const std::int64_t arrays = text_.whole("number of arrays", 0, 1000);
     for (std::int64_t n = 0; n < arrays; ++n) {
       if (text_.peek() == "METADATA") metadata();
-      text_.word();
+      const std::string name(text_.word());
       const std::int64_t components = text_.whole("components of an array", 0, 10000);
       const std::int64_t tuples = text_.whole("length of an array", 0, kMost / 10000);
-      reals(components * tuples, text_.word());
+      const std::string_view type = text_.word();
+      if (type == "string")
+        strings(components * tuples, name == "SPACE");
+      else
+        reals(components * tuples, type);
     }
+  }
+
+  /// A line each; in a binary file a length before each, whose first two bits say how many bytes it has (1 to 8).
+  void strings(std::int64_t count, bool is_space) {
+    text_.line();
+    for (std::int64_t n = 0; n < count; ++n) {
+      if (text_.rest().empty()) text_.refuse("the file ends within an array of texts: it is cut off");
+      const std::string_view text = binary_ ? counted_text() : text_.line();
+      if (is_space && n == 0) take_space(std::string(text), result_, file_);
+    }
+  }
+
+  std::string_view counted_text() {
+    const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text_.rest()[n]); };
+    const std::size_t bytes = std::size_t{1} << (3 - (byte(0) >> 6U));
+    std::uint64_t length = byte(0) & 0x3fU;
+    for (std::size_t n = 1; n < bytes; ++n) {
+      if (n >= text_.rest().size()) text_.refuse("the file ends within a text: it is cut off");
+      length = length << 8U | byte(n);
+    }
+    text_.skip(bytes);
+    if (length > text_.rest().size()) text_.refuse("the file ends within a text: it is cut off");
+    const std::string_view text = text_.rest().substr(0, static_cast<std::size_t>(length));
+    text_.skip(static_cast<std::size_t>(length));
+    return text;
   }
 
   VtkCells cells() {

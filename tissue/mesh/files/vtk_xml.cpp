@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "haptics/input_error.h"
 #include "tissue/mesh/files/surface_file.h"
@@ -49,6 +50,7 @@ class XmlGatherer {
   bool grid = false;
   VtkXmlPacking packing;
   std::vector<XmlPiece> pieces;
+  std::optional<XmlArray> space;  ///< field array "SPACE" of 3D Slicer: letters as numbers
   std::string failure;
 
   void start(const std::string& name, const Attributes& attributes) {
@@ -57,13 +59,18 @@ class XmlGatherer {
       pieces.push_back({attributes, {}});
       if (pieces.size() > kMaxParts) failure = "more than " + std::to_string(kMaxParts) + " pieces";
     }
-    if (is_section(name)) section_ = name;
+    if (is_section(name) || name == "FieldData") section_ = name;
+    if (section_ == "FieldData") {
+      if ((name == "Array" || name == "DataArray") && value(attributes, "Name") == "SPACE")
+        fill(space.emplace(), attributes);
+      return;
+    }
     if (name == "DataArray" && !section_.empty() && !pieces.empty()) array(attributes);
   }
 
   void end(const std::string& name) {
     if (name == section_) section_.clear();
-    if (name == "DataArray") open_ = nullptr;
+    if (name == "DataArray" || name == "Array") open_ = nullptr;
   }
 
   void text(std::string_view letters) {
@@ -89,7 +96,11 @@ class XmlGatherer {
 
   void array(const Attributes& attributes) {
     const std::string name = section_ == "Points" ? section_ : section_ + "/" + value(attributes, "Name");
-    open_ = &pieces.back().arrays[name];
+    fill(pieces.back().arrays[name], attributes);
+  }
+
+  void fill(XmlArray& array, const Attributes& attributes) {
+    open_ = &array;
     open_->type = vtk_xml_type(value(attributes, "type"));
     open_->format = value(attributes, "format");
     if (!to_whole(value(attributes, "offset"), open_->offset)) open_->offset = -1;
@@ -168,6 +179,16 @@ class PieceReader {
     check_stated(piece, "NumberOfPolys", polygons.ends.size());
     add_polygons(polygons, surface, file_);
     add_strips(checked_cells(piece, "Strips", surface.vertices.size()), surface, file_);
+  }
+
+  /// Letters of an array of strings, up to the 0 behind the first.
+  std::string letters_of(const XmlArray& array) const {
+    std::string letters;
+    if (array.format != "ascii") letters = bytes(array);
+    if (array.format == "ascii")
+      for (TextScanner text(array.text, file_); !text.at_end() && letters.size() < kMaxNameBytes;)
+        letters += static_cast<char>(text.whole("letter of a field", 0, 255));
+    return letters.substr(0, letters.find('\0'));
   }
 
  private:
@@ -264,6 +285,7 @@ SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file) {
   if (gatherer.pieces.empty()) throw InputError(file + ": holds no piece");
   const PieceReader reader(gatherer, appended, file);
   SurfaceFile result;
+  if (gatherer.space) take_space(reader.letters_of(*gatherer.space), result, file);
   std::size_t vertices = 0, triangles = 0;
   for (std::size_t n = 0; n < gatherer.pieces.size(); ++n) {
     const std::string name = gatherer.pieces.size() == 1 ? "" : "piece " + std::to_string(n);

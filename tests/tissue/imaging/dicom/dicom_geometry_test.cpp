@@ -161,6 +161,38 @@ TEST(DicomGeometry, TwoSlicesInOnePlaceAreRefusedByName) {
   EXPECT_CONTAINS(message, "a04 lie in the same place");
 }
 
+TEST(DicomGeometry, EchoesPhasesAndAcquisitionsAreSeriesToChooseFrom) {
+  for (const auto& [tag, name] :
+       {std::pair(0x00180086U, "echo"), std::pair(0x00200100U, "phase"), std::pair(0x00200012U, "acquisition")}) {
+    const DicomFolder folder;
+    std::vector<SliceFixture> slices;
+    for (const int pass : {2, 10})
+      for (SliceFixture& slice : stack_of(4, 5)) {
+        slice.value = [pass](int, int) { return pass; };
+        slice.change = [pass, tag = tag](Elements& data) { data.text(tag, "IS", std::to_string(pass)); };
+        slices.push_back(slice);
+      }
+    folder.write_all(slices);
+    const auto series = list_dicom(folder.path());
+    ASSERT_EQ(series.size(), 2U) << name;
+    EXPECT_EQ(series[0].part, std::string(name) + " 1 of 2");
+    EXPECT_CONTAINS(folder.refusal(), "choose one with --series N");
+    EXPECT_EQ(read_dicom_series(folder.path(), 1).values.front(), 2 - 1024) << "2 comes before 10";
+    EXPECT_EQ(read_dicom_series(folder.path(), 2).values.front(), 10 - 1024);
+  }
+}
+
+TEST(DicomGeometry, ImagesThatNameNoSeriesAreOneAndSaySo) {
+  const DicomFolder folder;
+  SliceFixture like;
+  like.series = "", like.study = "";
+  folder.write_all(stack_of(4, 5, like));
+  ASSERT_EQ(list_dicom(folder.path()).size(), 1U);
+  const ImageVolume image = read_dicom_series(folder.path());
+  EXPECT_EQ(image.size[2], 4);
+  EXPECT_CONTAINS(image.notes.at(0), "4 images name no series");
+}
+
 TEST(DicomGeometry, OtherOrientationSizeSpacingAndFrameOfReferenceAreRefusedByName) {
   const std::vector<std::pair<std::function<void(SliceFixture&)>, std::string>> cases{
       {[](SliceFixture& s) { s.along_row = Eigen::Vector3d(0, 1, 0), s.along_column = Eigen::Vector3d(0, 0, -1); },

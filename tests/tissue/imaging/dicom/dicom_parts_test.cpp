@@ -46,13 +46,30 @@ TEST(DicomElements, OnlyListedElementsAreKept) {
   slice.change = [](Elements& data) {
     data.text(0x00100010, "PN", "A^B").text(0x00100020, "LO", "1").text(0x00081030, "LO", "text");
   };
-  const std::set<DicomTag> allowed{
-      tag::kTransferSyntax, tag::kImageType,   tag::kSopClass,         tag::kSopInstance,
-      tag::kModality,       tag::kStudy,       tag::kSeries,           tag::kSeriesNumber,
-      tag::kPosition,       tag::kOrientation, tag::kFrameOfReference, tag::kSamples,
-      tag::kPhotometric,    tag::kRows,        tag::kColumns,          tag::kPixelSpacing,
-      tag::kBitsAllocated,  tag::kBitsStored,  tag::kHighBit,          tag::kPixelRepresentation,
-      tag::kIntercept,      tag::kSlope};
+  const std::set<DicomTag> allowed{tag::kTransferSyntax,
+                                   tag::kImageType,
+                                   tag::kSopClass,
+                                   tag::kSopInstance,
+                                   tag::kModality,
+                                   tag::kStudy,
+                                   tag::kSeries,
+                                   tag::kSeriesNumber,
+                                   tag::kPosition,
+                                   tag::kOrientation,
+                                   tag::kFrameOfReference,
+                                   tag::kSamples,
+                                   tag::kPhotometric,
+                                   tag::kRows,
+                                   tag::kColumns,
+                                   tag::kPixelSpacing,
+                                   tag::kBitsAllocated,
+                                   tag::kBitsStored,
+                                   tag::kHighBit,
+                                   tag::kPixelRepresentation,
+                                   tag::kIntercept,
+                                   tag::kSlope,
+                                   tag::kEcho,
+                                   tag::kAcquisition};
   for (const auto& [tag, element] : parsed(folder, slice.file()).data.elements)
     EXPECT_TRUE(allowed.contains(tag)) << std::hex << tag;
 }
@@ -174,11 +191,11 @@ TEST(SegmentLayers, TheFirstFreeLayerIsTaken) {
     for (const std::size_t n : voxels) one.voxels[n] = true, one.mark_slice(static_cast<int>(n / 4));
     return one;
   };
-  layers.add(1, "a", mask({0, 1}));
-  layers.add(2, "b", mask({1, 5}));
-  layers.add(3, "c", mask({2, 11}));
-  layers.add(4, "d", mask({0, 8}));
-  layers.add(5, "e", mask({}));
+  layers.add({0, 1, "a"}, mask({0, 1}));
+  layers.add({0, 2, "b"}, mask({1, 5}));
+  layers.add({0, 3, "c"}, mask({2, 11}));
+  layers.add({0, 4, "d"}, mask({0, 8}));
+  layers.add({0, 5, "e"}, mask({}));
   const LabelMap map = layers.take();
   ASSERT_EQ(map.layers.size(), 2U);
   ASSERT_EQ(map.segments.size(), 4U);

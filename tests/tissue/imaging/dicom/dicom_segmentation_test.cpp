@@ -44,6 +44,9 @@ void expect_holds(const LabelMap& map, const SegmentationFixture& fixture) {
                                       [&](const Segment& one) { return one.number == frame.segment; });
     ASSERT_NE(segment, map.segments.end());
     EXPECT_EQ(segment->name, fixture.labels[static_cast<std::size_t>(frame.segment - 1)]);
+    const std::vector<SegmentCode> codes{{"category", "SCT", "85756007", "Tissue"},
+                                         {"type", "SCT", "10200004", "Liver"}};
+    ASSERT_EQ(segment->codes, codes);
     for (int j = 0; j < fixture.rows; ++j)
       for (int i = 0; i < fixture.columns; ++i) {
         const int value = frame.values[static_cast<std::size_t>(j * fixture.columns + i)];

@@ -127,7 +127,7 @@ TEST(ContourGrid, TheAxisThatContoursAreNormalToComesLast) {
 TEST(ContourGrid, AnOwnGridHoldsEveryPointAndResolvesTheSmallest) {
   std::vector<Structure> structures{structure_in_plane(2, 10), structure_in_plane(2, 16), structure_in_plane(2, 12)};
   const ContourGrid grid = own_contour_grid(structures, "f");
-  EXPECT_EQ(grid.size[2], 4);
+  EXPECT_EQ(grid.size[2], 4 + 2) << "an empty slice at either end";
   EXPECT_NEAR(grid.step_mm(2), 2, 1e-12);
   EXPECT_NEAR(grid.step_mm(0), 0.25, 1e-12) << "8 mm across would be 60 pixels of 0.13 mm: the finest is 0.25";
   for (const Structure& structure : structures)

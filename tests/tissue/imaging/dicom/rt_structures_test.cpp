@@ -8,6 +8,7 @@
 #include "tests/tissue/imaging/dicom/segmentation_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/dicom/contour_fill.h"
+#include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/rt_structures.h"
 
 namespace trocar::test::rt_structures_test {
@@ -188,6 +189,23 @@ TEST_F(RtStructures, WithoutAnImageTheContoursMakeTheirGrid) {
   double polygons = 0;
   for (int k = -9; k <= 9; ++k) polygons += kPi * (900 - 9.0 * k * k) * 3 / 1000;
   EXPECT_NEAR(volume_ml(map), polygons, 0.005 * polygons);
+}
+
+TEST_F(RtStructures, TheStructuresAskedForDecideTheGrid) {
+  StructureFixture body{7, "BODY", {}, "CLOSED_PLANAR"}, gland{9, "Gland", {}, "CLOSED_PLANAR"};
+  for (int k = 0; k < 20; ++k) body.contours.push_back(rectangle(-200, -120, 200, 120, 5.0 * k));
+  for (int k = 0; k < 4; ++k) gland.contours.push_back(rectangle(-6, -6, 6, 6, 31 + 2.0 * k));
+  const DicomStudy study(folder_.write("rt.dcm", dicom_file(structure_set({body, gland}))));
+  EXPECT_THROW(read_rtstruct(study), InputError) << "two sets of planes";
+  for (const char* wanted : {"gland", "2"}) {
+    const LabelMap map = read_rtstruct(study, {}, {}, {wanted});
+    ASSERT_EQ(map.segments.size(), 1U);
+    EXPECT_EQ(map.segments[0].name, "Gland");
+    EXPECT_EQ(map.segments[0].number, 2) << "its place in the list";
+    EXPECT_NEAR(map.layers[0].index_to_ras_mm.linear().col(2).norm(), 2, 1e-9);
+    EXPECT_NEAR(volume_ml(map), 12 * 12 * 8 / 1000.0, 0.05);
+    EXPECT_EQ(map.layers[0].labels[map.layers[0].offset(4, 4, 0)], 0) << "an empty slice at either end";
+  }
 }
 
 TEST_F(RtStructures, TiltedPlanesMakeATiltedGrid) {

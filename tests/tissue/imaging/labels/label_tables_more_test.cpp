@@ -196,11 +196,16 @@ TEST(SegmentChoice, ANumberInSeveralLayersIsAskedBack) {
   EXPECT_EQ(choose_segment(map, "tumour", nullptr, "seg.nrrd").layer, 1U);
 }
 
-TEST(SegmentChoice, NamesAreTakenToTheLetter) {
+TEST(SegmentChoice, NamesAreTakenToTheLetterFirstAndElseInAnyCase) {
   const LabelMap map = map_of({{0, 1, "Liver"}, {0, 2, "liver right"}});
-  for (const char* wanted : {"liver", "LIVER", " Liver", "Liver ", "liver_right", "live"})
+  for (const char* wanted : {"Liver", "liver", "LIVER", " Liver"})
+    EXPECT_EQ(choose_segment(map, wanted, nullptr, "m").number, 1) << wanted;
+  EXPECT_EQ(choose_segment(map, "Liver_Right", nullptr, "m").number, 2);
+  for (const char* wanted : {"live", "right", "-"})
     EXPECT_THROW(choose_segment(map, wanted, nullptr, "m"), InputError) << wanted;
-  EXPECT_EQ(choose_segment(map, "Liver", nullptr, "m").number, 1);
+  const LabelMap two = map_of({{0, 1, "Clip"}, {0, 2, "clip"}});
+  EXPECT_EQ(choose_segment(two, "clip", nullptr, "m").number, 2);
+  EXPECT_THROW(choose_segment(two, "CLIP", nullptr, "m"), InputError) << "two names differ in case alone";
 }
 
 TEST(SegmentChoice, ATableNamesOnlyWhatTheFileLeavesUnnamed) {

@@ -102,6 +102,11 @@ TEST(MetaImage, LengthsThatAreNoMillimetresNeedAUnit) {
   test::TemporaryFolder folder;
   const auto path =
       folder.write("a.mha", plain_file("ElementSpacing = 0.002 0.003 0.004\nOffset = -0.010 0.020 0.030\n"));
+  EXPECT_CONTAINS(test::map_refusal(folder.write("n.mha", plain_file("ElementSpacing = -2 3 4\nOffset = 0 0 0\n"))),
+                  "directions belong into TransformMatrix");
+  EXPECT_CONTAINS(
+      test::map_refusal(folder.write("u.mha", plain_file("ElementSpacing = 2000 3000 4000\nOffset = 0 0 0\n"))),
+      "um makes it ");
   const std::string message = test::image_refusal(path);
   EXPECT_CONTAINS(message, "voxel size 0.002 mm");
   EXPECT_CONTAINS(message, "m makes it 9 mm long");

@@ -43,6 +43,16 @@ TEST(VtkLegacy, LinesVerticesFieldsAndMetadataAreSteppedOver) {
   EXPECT_CONTAINS(file.remarks.at(0), "lines and points");
 }
 
+TEST(VtkLegacy, FieldsOfTextAreReadAndSpaceIsTaken) {
+  const std::string solid = kTetPoints + "POLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  const auto with_field = [&](const std::string& field) {
+    return kHead + "DATASET POLYDATA\nFIELD FieldData 2\nSPACE 1 1 string\n" + field + "T 1 1 int\n5\n" + solid;
+  };
+  EXPECT_EQ(read_vtk_legacy(with_field("LPS\n"), "a.vtk").frame, "LPS");
+  EXPECT_CONTAINS(refusal(with_field("up\n")), "its field SPACE says \"up\"");
+  EXPECT_CONTAINS(refusal(kHead + "DATASET POLYDATA\nFIELD FieldData 1\nSPACE 1 9 string\nLPS\n"), "cut off");
+}
+
 TEST(VtkLegacy, GridsOfManyKindsOfCells) {
   // A tetrahedron, a quadratic triangle, a pixel, a quad, a line and a vertex.
   const std::string text =

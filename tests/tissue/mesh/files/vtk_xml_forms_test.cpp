@@ -45,6 +45,29 @@ TEST(VtkXmlForms, EveryTypeOfNumber) {
   EXPECT_CONTAINS(refusal(piece(points() + polygons("Float32"))), "numbers of a type that is not read");
 }
 
+TEST(VtkXmlForms, TheFieldSpaceSaysTheAxes) {
+  const auto with_field = [](const std::string& array) {
+    std::string text = piece(points() + polygons());
+    return text.insert(text.find("<Piece"), "<FieldData>" + array + "</FieldData>\n");
+  };
+  const auto space = [](const std::string& letters) {
+    return "<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">" + letters + "</Array>";
+  };
+  EXPECT_EQ(read_vtk_xml(piece(points() + polygons()), "a.vtp").frame, "");
+  EXPECT_EQ(read_vtk_xml(with_field(space("76 80 83 0")), "a.vtp").frame, "LPS");
+  EXPECT_EQ(read_vtk_xml(with_field(space("82 65 83 0")), "a.vtp").frame, "RAS");
+  EXPECT_EQ(read_vtk_xml(with_field("<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"binary\">"
+                                    "BAAAAExQUwA=</Array>"),
+                         "a.vtp")
+                .frame,
+            "LPS");
+  EXPECT_EQ(
+      read_vtk_xml(with_field("<Array type=\"String\" Name=\"Note\" format=\"ascii\">76 80 83 0</Array>"), "a.vtp")
+          .frame,
+      "");
+  EXPECT_CONTAINS(refusal(with_field(space("88 0"))), "its field SPACE says \"X\"");
+}
+
 TEST(VtkXmlForms, StripsBesidePolygons) {
   const std::string strips =
       "<Strips>" + ascii("Int32", "connectivity", "0 1 2 3") + ascii("Int32", "offsets", "4") + "</Strips>\n";
