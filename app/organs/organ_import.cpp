@@ -273,9 +273,6 @@ void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
 
 /// The page is made before anything is written, and written with the rest.
 void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
-  for (CompiledMember& organ : written.organs)
-    organ.surface_bytes = enter_surface(written.set ? member_stem(written.stem, organ.manifest.name) : written.stem,
-                                        organ.manifest, organ.surface);
   const OrganPageContent content{written.organs,
                                  written.set ? &*written.set : nullptr,
                                  written.image ? &*written.image : nullptr,
@@ -293,12 +290,15 @@ void write(const OrganImportOptions& options, WrittenOrgans& written) {
   if (written.set) {
     written.manifest = write_organ_set(written.stem, *written.set, written.organs, written.files);
   } else {
-    CompiledMember& organ = written.organs[0];
-    if (organ.surface_bytes.empty()) organ.surface_bytes = enter_surface(written.stem, organ.manifest, organ.surface);
+    const CompiledMember& organ = written.organs[0];
     written.manifest = write_entered_organ(written.stem, organ.manifest, organ.surface_bytes, written.files);
   }
   written.removed =
       remove_replaced(manifest, before, files_named_by(manifest), {options.input, options.labels, options.report});
+}
+
+std::vector<OrganCrossing> crossings_of(const WrittenOrgans& written) {
+  return written.set ? written.set->crossings : std::vector<OrganCrossing>{};
 }
 
 void remark(const WrittenOrgans& written, std::ostream& err) {
@@ -307,13 +307,11 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
     for (const std::string& decision : organ.manifest.decisions) {
       if (&organ == &written.organs.front()) err << "note: " << decision << "\n";
     }
-    if (mesh.self_intersections > 0)
-      err << "warning: " << organ.manifest.name << ": the surface cuts itself in " << mesh.self_intersections
-          << " places; try another --triangles\n";
     if (mesh.cut_at_border())
       err << "note: " << organ.manifest.name
           << " is cut at the volume border: the image ends inside it, the flat cap is not anatomy\n";
   }
+  for (const std::string& fault : faults_of(written.organs, crossings_of(written))) err << "warning: " << fault << "\n";
   for (const std::string& note : written.notes) err << "note: " << note << "\n";
   for (const std::string& file : written.removed)
     err << "note: removed " << file << ", which the organ of this name had before\n";
@@ -338,6 +336,9 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
                     : import_label(options, std::move(source), labels.front(), decisions, stem);
   }
   written.stem = stem;
+  CompiledMember& first = written.organs.front();
+  if (written.set) enter_surfaces(stem, *written.set, written.organs);
+  if (!written.set) first.surface_bytes = enter_surface(stem, first.manifest, first.surface);
   if (!options.report.empty()) add_page(options, written);
   write(options, written);
   remark(written, err);
@@ -352,7 +353,7 @@ int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostr
   else
     out << (options.json ? organ_json(written.organs[0].manifest, written.organs[0].surface.bounds())
                          : organ_text(written.organs[0].manifest, written.organs[0].surface.bounds()));
-  return 0;
+  return faults_of(written.organs, crossings_of(written)).empty() ? 0 : 2;
 }
 
 }  // namespace trocar

@@ -10,6 +10,8 @@
 #include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
+#include "tissue/organ/organ_set.h"
 #include "trainees/files/write_file.h"
 
 namespace trocar {
@@ -74,6 +76,7 @@ struct Checked {
 };
 
 void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOptions& options, Checked& checked) {
+  if (kind_of(exercise).on_organ) require_sound(organ);
   for (const ExerciseLevel& level : exercise.levels) {
     checked.proofs.push_back(prove_level(exercise, level.name, organ, options.unseen));
     AttemptSetup setup;
