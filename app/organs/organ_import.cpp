@@ -334,9 +334,6 @@ void check_not_input(const fs::path& stem, const OrganImportOptions& options) {
 
 /// The page is made before anything is written, and written with the rest.
 void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
-  for (CompiledMember& organ : written.organs)
-    organ.surface_bytes = enter_surface(written.set ? member_stem(written.stem, organ.manifest.name) : written.stem,
-                                        organ.manifest, organ.surface);
   const OrganPageContent content{written.organs,
                                  written.set ? &*written.set : nullptr,
                                  written.image ? &*written.image : nullptr,
@@ -354,38 +351,36 @@ void write(const OrganImportOptions& options, WrittenOrgans& written) {
   if (written.set) {
     written.manifest = write_organ_set(written.stem, *written.set, written.organs, written.files);
   } else {
-    CompiledMember& organ = written.organs[0];
-    if (organ.surface_bytes.empty()) organ.surface_bytes = enter_surface(written.stem, organ.manifest, organ.surface);
+    const CompiledMember& organ = written.organs[0];
     written.manifest = write_entered_organ(written.stem, organ.manifest, organ.surface_bytes, written.files);
   }
   written.removed =
       remove_replaced(manifest, before, files_named_by(manifest), {options.input, options.labels, options.report});
 }
 
-/// "liver in 4 places, spleen in 2 places" of the organs that have the fact; "" for none.
-template <typename Fact>
-std::string told_of(const WrittenOrgans& written, const Fact& fact) {
+/// "liver, spleen and 3 more": organs that the image does not hold whole; "" for none.
+std::string cut_organs(const WrittenOrgans& written) {
   constexpr std::size_t kListed = 6;
   std::string text;
   std::size_t count = 0;
-  for (const CompiledMember& organ : written.organs) {
-    const std::optional<std::string> words = fact(organ.manifest.mesh);
-    if (!words || ++count > kListed) continue;
-    text += (text.empty() ? "" : ", ") + organ.manifest.name + *words;
-  }
+  for (const CompiledMember& organ : written.organs)
+    if (organ.manifest.mesh.cut_at_border() && ++count <= kListed)
+      text += (text.empty() ? "" : ", ") + organ.manifest.name;
   return count > kListed ? text + " and " + std::to_string(count - kListed) + " more" : text;
+}
+
+std::vector<OrganCrossing> crossings_of(const WrittenOrgans& written) {
+  return written.set ? written.set->crossings : std::vector<OrganCrossing>{};
 }
 
 /// Warnings, and the first of what was decided; the manifests and the page have everything.
 void remark(const WrittenOrgans& written, std::ostream& err) {
-  constexpr std::size_t kNotes = 4;
-  using Words = std::optional<std::string>;
-  const std::string cut = told_of(written, [](const MeshFacts& mesh) {
-    return mesh.self_intersections == 0 ? Words() : " in " + std::to_string(mesh.self_intersections) + " places";
-  });
-  if (!cut.empty()) err << "warning: the surface cuts itself: " << cut << "; try another --triangles\n";
-  const std::string ended =
-      told_of(written, [](const MeshFacts& mesh) { return mesh.cut_at_border() ? Words("") : Words(); });
+  constexpr std::size_t kFaults = 3, kNotes = 4;
+  const std::vector<std::string> faults = faults_of(written.organs, crossings_of(written));
+  for (std::size_t n = 0; n < std::min(faults.size(), kFaults); ++n) err << "warning: " << faults[n] << "\n";
+  if (faults.size() > kFaults)
+    err << "warning: and " << faults.size() - kFaults << " more, which the page has; try another --triangles\n";
+  const std::string ended = cut_organs(written);
   if (!ended.empty() && written.organs.size() > 1)
     err << "note: the image ends inside these, their flat cap is not anatomy: " << ended << "\n";
   std::vector<std::string> notes;
@@ -436,6 +431,9 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
   else
     written = import_labels(options, stem);
   written.stem = stem;
+  CompiledMember& first = written.organs.front();
+  if (written.set) enter_surfaces(stem, *written.set, written.organs);
+  if (!written.set) first.surface_bytes = enter_surface(stem, first.manifest, first.surface);
   if (!options.report.empty()) add_page(options, written);
   write(options, written);
   remark(written, err);
@@ -452,7 +450,7 @@ int organ_import(const OrganImportOptions& options, std::ostream& out, std::ostr
                          : scene_summary(*written.set, written.organs, file));
   else
     out << (options.json ? organ_json(first, bounds) : organ_summary(first, bounds, file));
-  return 0;
+  return faults_of(written.organs, crossings_of(written)).empty() ? 0 : 2;
 }
 
 }  // namespace trocar

@@ -52,12 +52,21 @@ void prove_volume_meshes(const std::filesystem::path& path, OrganManifest& manif
 CompiledMember proved(const std::filesystem::path& path, std::ostream& err) {
   const Organ organ = load_organ(path);
   CompiledMember member{parse_manifest(read_bytes(path), path.string()), organ.surface};
-  member.manifest.mesh.topology = analyse_topology(organ.surface);
-  member.manifest.mesh.quality = mesh_quality(organ.surface);
-  member.manifest.mesh.self_intersections = count_self_intersections(organ.surface);
+  const std::size_t said = member.manifest.mesh.self_intersections;
+  prove_surface(organ.surface, member.manifest.mesh);
+  if (said != member.manifest.mesh.self_intersections)
+    err << "warning: " << path.string() << ": says " << said << " self-intersections, but the surface has "
+        << member.manifest.mesh.self_intersections << ": import it again\n";
   prove_volume_meshes(path, member.manifest);
-  if (member.manifest.mesh.self_intersections > 0) err << "warning: " << organ.name << ": the surface cuts itself\n";
   return member;
+}
+
+/// Says what is wrong. @return the exit code: 0 sound, 2 a check that found something
+int verdict_of(const std::vector<CompiledMember>& organs, const std::vector<OrganCrossing>& crossings,
+               std::ostream& err) {
+  const std::vector<std::string> faults = faults_of(organs, crossings);
+  for (const std::string& fault : faults) err << "warning: " << fault << "\n";
+  return faults.empty() ? 0 : 2;
 }
 
 }  // namespace
@@ -69,14 +78,15 @@ int organ_info(const OrganInfoOptions& options, std::ostream& out, std::ostream&
     const CompiledMember organ = proved(path, err);
     out << (options.json ? organ_json(organ.manifest, organ.surface.bounds())
                          : organ_text(organ.manifest, organ.surface.bounds()));
-    return 0;
+    return verdict_of({organ}, {}, err);
   }
-  const OrganSet set = parse_organ_set(read_bytes(path), file);
+  OrganSet set = parse_organ_set(read_bytes(path), file);
   load_organ(path);  // every member is there and unchanged
   std::vector<CompiledMember> organs;
   for (const std::string& member : set.files) organs.push_back(proved(path.parent_path() / member, err));
+  set.crossings = organ_crossings(organs);
   out << (options.json ? scene_report_json(set, organs) : scene_report_text(set, organs));
-  return 0;
+  return verdict_of(organs, set.crossings, err);
 }
 
 namespace {

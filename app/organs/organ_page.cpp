@@ -212,6 +212,15 @@ std::string organ_section(const CompiledMember& organ, bool several, const Label
          "<h2>Origin</h2>" + origin(organ.manifest);
 }
 
+std::string crossings(const OrganSet& set) {
+  std::string tags =
+      tag(set.crossings.empty(), std::to_string(set.crossings.size()) + " pairs of organs cut each other");
+  for (const OrganCrossing& crossing : set.crossings)
+    tags +=
+        tag(false, crossing.a + " and " + crossing.b + ": " + std::to_string(crossing.pairs) + " pairs of triangles");
+  return "<p>" + tags + "</p>";
+}
+
 std::string contacts(const OrganSet& set) {
   if (set.contacts.empty()) return "";
   std::string rows = "<tr><th>Organs</th><th>Common face</th><th>Triangles</th></tr>";
@@ -240,7 +249,7 @@ std::string organ_page(const OrganPageContent& content) {
   body += pictures_section(content);
   for (std::size_t n = 0; n < content.organs.size(); ++n)
     body += organ_section(content.organs[n], several, n < content.values.size() ? &content.values[n] : nullptr);
-  if (content.set) body += contacts(*content.set);
+  if (content.set) body += crossings(*content.set) + contacts(*content.set);
   for (const std::string& note : content.notes) body += "<p>" + escape_html(note) + "</p>";
   std::string versions;
   for (const auto& [library, version] : library_versions())

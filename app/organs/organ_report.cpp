@@ -258,6 +258,9 @@ std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMem
                                 {"b", contact.b},
                                 {"area_cm2", rounded(contact.area_m2 * 1e4, 3)},
                                 {"shared", contact.shared}});
+  json["crossings"] = Json::array();
+  for (const OrganCrossing& crossing : set.crossings)
+    json["crossings"].push_back({{"a", crossing.a}, {"b", crossing.b}, {"pairs", crossing.pairs}});
   json["attachments"] = Json::array();
   for (const OrganAttachment& attachment : set.attachments)
     json["attachments"].push_back(
@@ -276,6 +279,8 @@ std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMem
   for (const OrganContact& contact : set.contacts)
     out << contact.a << " lies against " << contact.b << " over " << contact.area_m2 * 1e4 << " cm2"
         << (contact.shared ? ", the same triangles in both" : "") << "\n";
+  for (const OrganCrossing& crossing : set.crossings)
+    out << crossing.a << " and " << crossing.b << " CUT EACH OTHER: " << crossing.pairs << " pairs of triangles\n";
   return text + out.str();
 }
 

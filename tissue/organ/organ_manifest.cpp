@@ -8,6 +8,7 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/mesh/surface/surface_check.h"
 #include "tissue/organ/ply_file.h"
 #include "tissue/organ/staged_file.h"
 #include "tissue/organ/toml_table.h"
@@ -285,15 +286,23 @@ std::vector<std::string> files_beside(const OrganManifest& manifest) {
   return names;
 }
 
-std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface) {
+void prove_surface(const TriangleSurface& surface, MeshFacts& facts) {
+  facts.topology = analyse_topology(surface);
+  facts.quality = mesh_quality(surface);
+  facts.self_intersections = count_self_intersections(surface);
+}
+
+std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, TriangleSurface& surface) {
   std::string bytes = ply_bytes(surface);
+  surface = parse_ply(bytes, stem.string() + ".ply");
+  prove_surface(surface, manifest.mesh);
   manifest.surface = stem.filename().string() + ".ply";
   manifest.surface_sha256 = digest::of_bytes(bytes);
   return bytes;
 }
 
-std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
-                                  const TriangleSurface& surface, const std::vector<SideFile>& more) {
+std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest, TriangleSurface surface,
+                                  const std::vector<SideFile>& more) {
   return write_entered_organ(stem, manifest, enter_surface(stem, manifest, surface), more);
 }
 

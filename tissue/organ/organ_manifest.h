@@ -78,16 +78,22 @@ struct SideFile {
   std::string name, bytes;
 };
 
-/// Enters the name and the hash of the surface's file into the manifest. @return the file's bytes
-std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, const TriangleSurface& surface);
+/// What can be proved on a surface as it lies in its file: topology, angles and edges, self-intersections. Import
+/// enters it, `organ info` proves it anew.
+void prove_surface(const TriangleSurface& surface, MeshFacts& facts);
+
+/// Enters the name and the hash of the surface's file into the manifest, and proves it.
+/// @param surface becomes what the file holds, rounded to float32: what is counted is what will be loaded
+/// @return the file's bytes
+std::string enter_surface(const std::filesystem::path& stem, OrganManifest& manifest, TriangleSurface& surface);
 
 /// Writes NAME.organ.toml, NAME.ply and the further files whole or not at all: all are staged beside their place and
 /// then renamed.
 /// @param stem path without the suffixes; its folder is made when missing
 /// @return path of the manifest
 /// @throws EnvironmentError when the folder cannot be written or the disk is full; nothing is left behind
-std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest,
-                                  const TriangleSurface& surface, const std::vector<SideFile>& more = {});
+std::filesystem::path write_organ(const std::filesystem::path& stem, OrganManifest& manifest, TriangleSurface surface,
+                                  const std::vector<SideFile>& more = {});
 /// The same after enter_surface. @param surface_bytes what it returned
 std::filesystem::path write_entered_organ(const std::filesystem::path& stem, const OrganManifest& manifest,
                                           const std::string& surface_bytes, const std::vector<SideFile>& more = {});

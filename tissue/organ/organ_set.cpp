@@ -7,6 +7,7 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/mesh/surface/surface_check.h"
 #include "tissue/organ/staged_file.h"
 #include "tissue/organ/toml_table.h"
 
@@ -90,6 +91,12 @@ std::string organ_set_text(const OrganSet& set) {
     out.add("area_cm2", contact.area_m2 / kM2PerCm2, 3);
     out.add("shared", contact.shared);
   }
+  for (const OrganCrossing& crossing : set.crossings) {
+    out.array_table("crossing");
+    out.add("a", crossing.a);
+    out.add("b", crossing.b);
+    out.add("pairs", crossing.pairs);
+  }
   for (const OrganAttachment& attachment : set.attachments) {
     out.array_table("attachment");
     out.add("organ", attachment.organ);
@@ -127,6 +134,11 @@ OrganSet parse_organ_set(const std::string& text, const std::string& file) {
           {contact.text("a"), contact.text("b"), contact.number("area_cm2") * kM2PerCm2, contact.boolean("shared")});
       contact.finish();
     }
+  if (table.has("crossing"))
+    for (TomlTable& crossing : table.tables("crossing")) {
+      set.crossings.push_back({crossing.text("a"), crossing.text("b"), crossing.count("pairs")});
+      crossing.finish();
+    }
   if (table.has("attachment"))
     for (TomlTable& attachment : table.tables("attachment")) set.attachments.push_back(read_attachment(attachment));
   table.finish();
@@ -156,17 +168,62 @@ std::filesystem::path member_stem(const std::filesystem::path& stem, const std::
   return stem.string() + "-" + name;
 }
 
+std::vector<OrganCrossing> organ_crossings(const std::vector<CompiledMember>& members) {
+  std::vector<const TriangleSurface*> surfaces;
+  for (const CompiledMember& member : members) surfaces.push_back(&member.surface);
+  std::vector<OrganCrossing> crossings;
+  for (const auto& [first, second, pairs] : surface_crossings(surfaces))
+    crossings.push_back({members[first].manifest.name, members[second].manifest.name, pairs});
+  return crossings;
+}
+
+void enter_surfaces(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members) {
+  for (CompiledMember& member : members)
+    if (member.surface_bytes.empty())
+      member.surface_bytes = enter_surface(member_stem(stem, member.manifest.name), member.manifest, member.surface);
+  set.crossings = organ_crossings(members);
+}
+
+std::vector<std::string> faults_of(const std::vector<CompiledMember>& members,
+                                   const std::vector<OrganCrossing>& crossings) {
+  std::vector<std::string> faults;
+  for (const CompiledMember& member : members)
+    if (const std::size_t cuts = member.manifest.mesh.self_intersections; cuts > 0)
+      faults.push_back(member.manifest.name + " cuts itself: " + std::to_string(cuts) + " pairs of triangles");
+  for (const OrganCrossing& crossing : crossings)
+    faults.push_back(crossing.a + " and " + crossing.b + " cut each other: " + std::to_string(crossing.pairs) +
+                     " pairs of triangles");
+  return faults;
+}
+
+void require_sound(const Organ& organ) {
+  std::vector<CompiledMember> members;
+  const auto add = [&](const Organ& one) {
+    CompiledMember& member = members.emplace_back();
+    member.manifest.name = one.name;
+    member.surface = one.surface;
+    member.manifest.mesh.self_intersections = count_self_intersections(one.surface);
+  };
+  add(organ);
+  for (const Organ& other : organ.adjacent) add(other);
+  const std::vector<std::string> faults = faults_of(members, {});
+  if (faults.empty()) return;
+  std::string text = organ.manifest.string() + ": no exercise can be done on it: " + faults.front();
+  if (faults.size() > 1) text += ", and " + std::to_string(faults.size() - 1) + " more faults";
+  throw InputError(text + ": `trocar organ info` lists them; import it again with another --triangles");
+}
+
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set,
                                       std::vector<CompiledMember>& members, const std::vector<SideFile>& more) {
   std::vector<std::unique_ptr<StagedFile>> staged;
   const auto stage = [&](const std::filesystem::path& path, const std::string& bytes) {
     staged.push_back(std::make_unique<StagedFile>(path, bytes));
   };
+  enter_surfaces(stem, set, members);
   set.files.clear();
   set.sha256.clear();
   for (CompiledMember& member : members) {
     const std::string name = member_stem(stem, member.manifest.name).string();
-    if (member.surface_bytes.empty()) member.surface_bytes = enter_surface(name, member.manifest, member.surface);
     const std::string text = manifest_text(member.manifest);
     stage(name + ".ply", member.surface_bytes);
     stage(name + std::string(kOrganSuffix), text);

@@ -32,12 +32,20 @@ struct OrganAttachment {
   bool operator==(const OrganAttachment&) const = default;
 };
 
+/// Two organs whose surfaces cut each other.
+struct OrganCrossing {
+  std::string a, b;       ///< names; a before b in the file's order
+  std::size_t pairs = 0;  ///< of triangles
+  bool operator==(const OrganCrossing&) const = default;
+};
+
 struct OrganSet {
   std::string name;
   std::string subject;              ///< name of one of the organs
   std::vector<std::string> files;   ///< manifests beside the scene file
   std::vector<std::string> sha256;  ///< of the manifests' bytes, in their order
   std::vector<OrganContact> contacts;
+  std::vector<OrganCrossing> crossings = {};  ///< none of a sound scene
   std::vector<OrganAttachment> attachments;
   std::vector<std::string> more_files;  ///< others that belong to it, "abdomen.vessels.toml"
 };
@@ -66,6 +74,21 @@ struct CompiledMember {
 
 /// Path without suffix of one organ of a scene: STEM-NAME.
 std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name);
+
+/// The crossings between the organs of a scene, as the scene file holds them and `organ info` finds them.
+std::vector<OrganCrossing> organ_crossings(const std::vector<CompiledMember>& members);
+
+/// Enters the surfaces (enter_surface) and the crossings between them, once.
+void enter_surfaces(const std::filesystem::path& stem, OrganSet& set, std::vector<CompiledMember>& members);
+
+/// What keeps an organ or a scene from being sound, one short sentence each: surfaces that cut themselves or each
+/// other. Import, page, `organ info` and the refusals of exercises all take their words from here.
+std::vector<std::string> faults_of(const std::vector<CompiledMember>& members,
+                                   const std::vector<OrganCrossing>& crossings);
+
+/// @throws InputError naming the file when the organ's surface or that of an adjacent one cuts itself: contact and
+/// cutting need an inside and an outside everywhere. Organs that cut each other pass (decision 0032)
+void require_sound(const Organ& organ);
 
 /// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing:
 /// everything is staged beside its place and then renamed, the scene file last.

@@ -12,7 +12,9 @@
 #include "app/cli/command.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/trace.h"
+#include "tissue/organ/organ_set.h"
 #include "trainees/files/write_file.h"
 
 namespace trocar {
@@ -105,6 +107,7 @@ std::vector<std::string> checked_levels(const Exercise& exercise, const CheckOpt
 
 void check_exercise(const Exercise& exercise, const Organ& organ, const CheckOptions& options, const AssetRoots& assets,
                     std::ostream& err, Checked& checked) {
+  if (kind_of(exercise).on_organ) require_sound(organ);
   for (const std::string& level : checked_levels(exercise, options)) {
     LevelProof proof = prove_level(exercise, level, organ, options.unseen);
     PlayedLevel played = options.play ? play_level(exercise, level, options.organ, assets, err) : PlayedLevel{};

@@ -27,6 +27,7 @@
 #include "scenarios/layout/shaft_room.h"
 #include "scenarios/layout/sheet_frame.h"
 #include "tissue/interaction/suturing.h"
+#include "tissue/organ/organ_set.h"
 #include "tissue/solid/embedded_surface.h"
 #include "tissue/solid/tissue_table.h"
 #include "tissue/theatre_frame.h"
@@ -494,7 +495,11 @@ Vec3 entry_T(const Scene& scene) {
 }
 
 Organ organ_of(const AttemptSetup& setup, const AssetRoots& assets) {
-  if (kind_of(setup.exercise).on_organ) return load_organ(find_organ(setup.organ, assets.assets));
+  if (kind_of(setup.exercise).on_organ) {
+    Organ organ = load_organ(find_organ(setup.organ, assets.assets));
+    require_sound(organ);
+    return organ;
+  }
   Organ none;
   none.name = "none";
   return none;

@@ -92,7 +92,13 @@ TEST(SceneImport, TwoLabelsBecomeASceneThatLoads) {
   EXPECT_EQ(organ.adjacent.at(0).name, "spleen");
   std::ostringstream out, err;
   organ_info({files.folder / "abdomen.scene.toml", true}, out, err);
-  EXPECT_EQ(Json::parse(out.str())["organs"].size(), 2U);
+  const Json found = Json::parse(out.str());
+  ASSERT_EQ(found["organs"].size(), 2U);
+  EXPECT_EQ(report["crossings"], Json::array());
+  EXPECT_EQ(found["crossings"], report["crossings"]);
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* key : {"self_intersections", "angles_deg", "edges_mm", "genus"})
+      EXPECT_EQ(found["organs"][n][key], report["organs"][n][key]) << key;
 }
 
 TEST(SceneImport, AllTakesEveryLabelAndTheLargestIsTheSubject) {

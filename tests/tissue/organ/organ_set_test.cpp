@@ -5,6 +5,7 @@
 #include "haptics/input_error.h"
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/temporary_folder.h"
+#include "tissue/mesh/surface/surface_check.h"
 
 namespace trocar::organ_set_test {
 namespace {
@@ -58,6 +59,38 @@ TEST(OrganSet, ComesBackWithSubjectAndAdjacentOrgansInOneFrame) {
   EXPECT_EQ(organ.adjacent[0].name, "spleen");
   EXPECT_NEAR((organ.adjacent[0].surface.bounds().center() - Vec3(0.1, 0, 0)).norm(), 0, 1e-6);
   EXPECT_EQ(organ.manifest, written.path);
+}
+
+TEST(OrganSet, OrgansThatCrossAreToldInTheFile) {
+  test::TemporaryFolder folder;
+  Written sound = write(folder);
+  EXPECT_TRUE(sound.set.crossings.empty());
+  EXPECT_NO_THROW(require_sound(load_organ(sound.path)));
+  std::vector<CompiledMember> organs{member("liver", Vec3::Zero(), "CC0-1.0", "one"),
+                                     member("spleen", Vec3(0.07, 0, 0), "CC0-1.0", "two")};
+  sound.set.crossings = {{"liver", "spleen", 0}};  // what was said before counts for nothing
+  const std::filesystem::path path = write_organ_set(folder / "crossing", sound.set, organs, {});
+  const OrganSet read = parse_organ_set(read_bytes(path), path.string());
+  ASSERT_EQ(read.crossings.size(), 1U);
+  EXPECT_EQ(read.crossings[0].b, "spleen");
+  EXPECT_GT(read.crossings[0].pairs, 0U);
+  EXPECT_EQ(read.crossings, organ_crossings(organs));
+  const std::vector<std::string> faults = faults_of(organs, read.crossings);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_CONTAINS(faults[0], "liver and spleen cut each other: " + std::to_string(read.crossings[0].pairs));
+}
+
+TEST(OrganSet, WhatTheManifestSaysIsCountedOnWhatTheFileHolds) {
+  test::TemporaryFolder folder;
+  CompiledMember organ = member("liver", Vec3::Zero(), "CC0-1.0", "one");
+  organ.surface =
+      test::joined(test::box(Vec3::Zero(), Vec3::Constant(0.1)), test::box(Vec3::Constant(0.05), Vec3::Constant(0.16)));
+  organ.manifest.mesh.self_intersections = 0;
+  const std::filesystem::path path = write_organ(folder / "liver", organ.manifest, organ.surface);
+  const Organ read = load_organ(path);
+  EXPECT_GT(organ.manifest.mesh.self_intersections, 0U);
+  EXPECT_EQ(organ.manifest.mesh.self_intersections, count_self_intersections(read.surface));
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { require_sound(read); }), "liver cuts itself");
 }
 
 TEST(OrganSet, CreditsLicencesAndTheSyntheticFlagSpeakForAll) {

@@ -13,6 +13,17 @@ std::size_t count_self_intersections(const TriangleSurface& surface);
 /// The triangles of those pairs, ascending, each once.
 std::vector<std::int32_t> self_intersecting(const TriangleSurface& surface);
 
+/// How often two of several surfaces cut each other.
+struct SurfaceCrossing {
+  std::size_t first = 0, second = 0;  ///< of the surfaces, first < second
+  std::size_t pairs = 0;              ///< of triangles, at least one
+};
+
+/// Pairs of triangles of different surfaces that meet in more than the corners, edges and whole triangles that they
+/// share with equal coordinates (exact predicates; triangles without area are skipped: their edges are their
+/// neighbours'). A surface that lies inside another one crosses nothing. @return ascending, only surfaces that cross
+std::vector<SurfaceCrossing> surface_crossings(const std::vector<const TriangleSurface*>& surfaces);
+
 /// Turns triangles over so that neighbours agree and the surface bounds a volume from outside.
 /// @return triangles that had to be turned
 /// @throws std::invalid_argument when the surface is open or not manifold

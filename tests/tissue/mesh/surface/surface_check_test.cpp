@@ -24,6 +24,34 @@ TEST(SurfaceCheck, FindsSelfIntersections) {
   EXPECT_GT(count_self_intersections(crossing), 0U);
 }
 
+TEST(SurfaceCheck, FindsWhichSurfacesCrossAndLetsThemShareFaces) {
+  const TriangleSurface one = box(Vec3::Zero(), Vec3::Ones()), inside = box(Vec3::Constant(.2), Vec3::Constant(.4)),
+                        over = box(Vec3(.9, .9, .9), Vec3::Constant(2)), beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
+  EXPECT_TRUE(surface_crossings({&one, &inside}).empty()) << "a surface inside another one";
+  EXPECT_TRUE(surface_crossings({&one, &one}).empty()) << "the same triangles";
+  EXPECT_TRUE(surface_crossings({&one}).empty());
+  const auto found = surface_crossings({&beside, &one, &inside, &over});
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.back().first, 1U);
+  EXPECT_EQ(found.back().second, 3U);
+  EXPECT_GT(found.back().pairs, 0U);
+}
+
+TEST(SurfaceCheck, CountsCrossingsThatRunThroughASharedCorner) {
+  const auto triangle = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return TriangleSurface{{a, b, c}, {{0, 1, 2}}};
+  };
+  const TriangleSurface flat = triangle(Vec3::Zero(), Vec3(1, 0, 0), Vec3(0, 1, 0)),
+                        through = triangle(Vec3::Zero(), Vec3(.4, .4, -1), Vec3(.4, .4, 1)),
+                        corner = triangle(Vec3::Zero(), Vec3(-1, 0, 1), Vec3(-1, 1, 1)),
+                        folded = triangle(Vec3(1, 0, 0), Vec3::Zero(), Vec3(.3, .3, 0)),
+                        hinged = triangle(Vec3(1, 0, 0), Vec3::Zero(), Vec3(.3, .3, 1));
+  EXPECT_EQ(surface_crossings({&flat, &through}).size(), 1U);
+  EXPECT_EQ(surface_crossings({&flat, &folded}).size(), 1U) << "both lie in one plane on one side of the common edge";
+  EXPECT_TRUE(surface_crossings({&flat, &corner}).empty());
+  EXPECT_TRUE(surface_crossings({&flat, &hinged}).empty());
+}
+
 TEST(SurfaceCheck, TurnsASurfaceOutwards) {
   TriangleSurface inward = box(Vec3::Zero(), Vec3::Ones());
   for (auto& triangle : inward.triangles) std::swap(triangle[1], triangle[2]);
