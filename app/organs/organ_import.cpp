@@ -399,6 +399,7 @@ WrittenOrgans import_labels(const OrganImportOptions& options, const fs::path& s
   ImportSource source = read_import_source(options);
   OrganImportOptions asked = options;
   if (!source.origin.empty() && options.label.empty() && source.map.segments.size() > 1) asked.all = true;
+  if (asked.label_table.empty()) asked.label_table = source.map.table;
   std::vector<std::string> decisions = source.map.notes;
   if (source.image) append(decisions, source.image->notes);
   const std::vector<ChosenLabel> labels = choose_labels(asked, source.map, source.file, decisions);

@@ -79,9 +79,10 @@ Json image_json(const ImageVolume& image) {
 Json volume_json(const OrganInspectOptions& options) {
   std::optional<OwnLabelTable> own;
   if (!options.label_table.empty()) own = label_table_or_file(options.label_table);
-  const LabelTable* table = own ? &own->table() : nullptr;
   try {
-    return segments_json(read_label_map(options.input, options.progress), table);
+    const LabelMap map = read_label_map(options.input, options.progress);
+    if (!own && !map.table.empty()) own = label_table_or_file(map.table);
+    return segments_json(map, own ? &own->table() : nullptr);
   } catch (const InputError& no_labels) {
     try {
       return image_json(read_image_volume(options.input, options.progress));

@@ -18,6 +18,7 @@ struct LabelMap {
   std::vector<Segment> segments;     ///< every number that marks a voxel, by layer and number
   std::string modality = "unknown";  ///< of the image that was segmented, where the file tells
   std::vector<std::string> notes;
+  std::string table = {};  ///< built-in table (label_table.h) that the file itself says it follows; "" none
 };
 
 }  // namespace trocar

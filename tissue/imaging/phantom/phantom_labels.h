@@ -12,6 +12,8 @@
 namespace trocar {
 
 inline constexpr std::string_view kPhantomTable = "trocar-phantom";
+/// What the headers of its files say of themselves.
+inline constexpr std::string_view kPhantomDescription = "synthetic CT phantom made by Trocar";
 
 /// Every label by the name that the code uses.
 namespace phantom_label {

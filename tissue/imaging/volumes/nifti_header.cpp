@@ -179,6 +179,7 @@ VolumeHeader described(const NiftiHeader& header, const fs::path& path) {
   volume.index_to_ras_mm = header.index_to_ras_mm;
   volume.notes = header.notes;
   volume.segments = header.labels;
+  volume.description = header.description;
   volume.block.file = path;
   volume.block.type = nifti_voxel_type(header.type);
   volume.block.swapped = header.swapped;
@@ -226,6 +227,10 @@ NiftiHeader open_header(const fs::path& path) {
                        : "a header of a .hdr/.img pair under the name of a single file");
   header.gzip = named_gzip;
   bytes.resize(got);
+  if (header.version == 1) {  // 80 bytes from byte 148, as in nifti1.h
+    const std::string text(bytes.begin() + 148, bytes.begin() + 228);
+    header.description = text.substr(0, text.find('\0'));
+  }
   read_extensions(stream, bytes, header);
   return header;
 }

@@ -43,6 +43,7 @@ struct NiftiHeader {
   double slope = 1;          ///< value = slope * stored + intercept; slope 0 in the file means 1
   double intercept = 0;
   Eigen::Affine3d index_to_ras_mm = Eigen::Affine3d::Identity();
+  std::string description;         ///< the field descrip of a NIfTI-1 header; of a file, not of bare bytes
   std::string frame_source;        ///< "sform 2" or "qform 1": which transform placed the image
   std::vector<Segment> labels;     ///< that a header extension names (nifti_labels.h); of a file, not of bare bytes
   std::vector<std::string> notes;  ///< what was odd but usable, one sentence each

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/imaging/volumes/gzip_stream.h"
 #include "tissue/imaging/volumes/nifti_header.h"
 
@@ -34,7 +35,7 @@ std::string header_bytes(const std::array<int, 3>& size, const Eigen::Affine3d& 
   put(bytes, 108, static_cast<float>(kDataOffset));
   put(bytes, 112, 1.0F);
   put<std::uint8_t>(bytes, 123, 2);  // millimetres
-  std::memcpy(bytes.data() + 148, "synthetic CT phantom made by Trocar", 35);
+  std::memcpy(bytes.data() + 148, kPhantomDescription.data(), kPhantomDescription.size());
   put<std::int16_t>(bytes, 254, 1);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/imaging/volumes/axis_order.h"
 #include "tissue/imaging/volumes/volume_frame.h"
 #include "tissue/imaging/volumes/voxel_stream.h"
@@ -186,6 +187,12 @@ Segment told_of(const VolumeHeader& header, std::size_t layer, int number) {
   return {layer, number};
 }
 
+/// Our own phantom's map says in its header what made it, and no other map of that header has a skin: its numbers are
+/// those of its table.
+bool of_phantom(const VolumeHeader& header, const std::vector<std::size_t>& counts) {
+  return header.description == kPhantomDescription && counts[phantom_label::kSkin] > 0;
+}
+
 /// Segments that mark no voxel, in one sentence: a table names every organ that could be.
 void note_unmarked(const std::vector<std::string>& names, std::vector<std::string>& notes) {
   constexpr std::size_t kListed = 3;
@@ -203,6 +210,7 @@ void list_segments(const VolumeHeader& header, const LabelTaker& taker, LabelMap
   std::vector<LabelVolume> layers;
   for (std::size_t layer = 0; layer < map.layers.size(); ++layer) {
     std::size_t marked = 0;
+    if (header.segments.empty() && of_phantom(header, taker.counts(layer))) map.table = kPhantomTable;
     for (std::size_t number = 1; number < 65536; ++number) {
       if (taker.counts(layer)[number] == 0) continue;
       map.segments.push_back(told_of(header, layer, static_cast<int>(number)));

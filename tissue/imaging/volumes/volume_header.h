@@ -42,6 +42,7 @@ struct VolumeHeader {
   std::string modality = "unknown";
   bool segmentation = false;      ///< the header names segments (.seg.nrrd)
   std::vector<Segment> segments;  ///< that the header tells of, whether they mark a voxel or not
+  std::string description = {};   ///< free text of a NIfTI header; "" elsewhere
   std::vector<std::string> notes;
 
   std::uint64_t value_count() const;
