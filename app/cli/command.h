@@ -68,6 +68,7 @@ AddCommand add_organ_import;
 AddCommand add_organ_inspect;
 AddCommand add_organ_info;
 AddCommand add_organ_render;
+AddCommand add_organ_export;
 AddCommand add_organ_package;
 AddCommand add_organ_phantom;
 

@@ -62,15 +62,9 @@ class ObjReader {
     if (key == "v") return vertex(line);
     if (key == "f" || key == "fo") return face(line);
     if (key == "o" || key == "g") return group(trimmed_line(line));
-    if (key.starts_with('#') && result_.frame.empty()) return comment(line);
+    if (key.starts_with('#') && result_.frame.empty()) return take_comment(line, "a comment", result_);
     curves_ = curves_ || key == "curv" || key == "curv2" || key == "surf";
     lines_ = lines_ || key == "l" || key == "p";
-  }
-
-  void comment(std::string_view line) {
-    result_.frame = slicer_space(line);
-    if (!result_.frame.empty())
-      result_.frame_source = "a comment says SPACE=" + result_.frame + ", as 3D Slicer writes it";
   }
 
   void vertex(std::string_view line) {

@@ -279,13 +279,6 @@ SurfaceFile read_with_assimp(const fs::path& path, SurfaceKind kind) {
   return result;
 }
 
-/// Comments of the header: 3D Slicer says there which way x and y run.
-void ply_frame(std::string_view bytes, SurfaceFile& result) {
-  const std::string_view header = bytes.substr(0, bytes.find("end_header"));
-  result.frame = slicer_space(header);
-  if (!result.frame.empty()) result.frame_source = "a comment says SPACE=" + result.frame + ", as 3D Slicer writes it";
-}
-
 }  // namespace
 
 SurfaceFile read_scene(const fs::path& path, SurfaceKind kind, std::string_view bytes, const Progress& progress) {
@@ -296,7 +289,7 @@ SurfaceFile read_scene(const fs::path& path, SurfaceKind kind, std::string_view 
     if (kind == SurfaceKind::kGlb || kind == SurfaceKind::kGltf) remarks = check_gltf(bytes, path);
     SurfaceFile result = read_with_assimp(path, kind);
     result.remarks.insert(result.remarks.begin(), remarks.begin(), remarks.end());
-    if (kind == SurfaceKind::kPly) ply_frame(bytes, result);
+    if (kind == SurfaceKind::kPly) take_comment(bytes.substr(0, bytes.find("end_header")), "a comment", result);
     return packed_scene(result);
   });
   return unpacked(answer, file);

@@ -13,11 +13,6 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text, then the number of triangles
 constexpr std::size_t kTriangleBytes = 50;
 
-void note_space(SurfaceFile& result, std::string_view header) {
-  result.frame = slicer_space(header);
-  if (!result.frame.empty()) result.frame_source = "the header says SPACE=" + result.frame + ", as 3D Slicer writes it";
-}
-
 void add_facet(TriangleSurface& surface, const std::array<Vec3, 3>& corners) {
   const auto first = static_cast<std::int32_t>(surface.vertices.size());
   surface.vertices.insert(surface.vertices.end(), corners.begin(), corners.end());
@@ -51,7 +46,7 @@ SurfaceFile read_binary(std::string_view bytes, const std::string& file) {
                      " bytes: it is cut off, or no STL");
   check_count(count, kMaxTriangles, "triangles", file);
   SurfaceFile result;
-  note_space(result, bytes.substr(0, 80));
+  take_comment(bytes.substr(0, 80), "the header", result);
   if (bytes.size() > wanted)
     result.remarks.push_back(std::to_string(bytes.size() - wanted) + " bytes behind the last triangle were left out");
   FilePart part;
@@ -91,7 +86,7 @@ SurfaceFile read_text(std::string_view bytes, const std::string& file) {
   while (!text.at_end()) {
     if (text.word() != "solid") text.refuse("\"solid\" expected");
     const std::string_view name = text.line();
-    if (result.parts.empty()) note_space(result, name);
+    if (result.parts.empty()) take_comment(name, "the header", result);
     check_count(result.parts.size() + 1, kMaxParts, "solids", file);
     FilePart part;
     part.name =

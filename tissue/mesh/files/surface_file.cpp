@@ -87,6 +87,19 @@ std::string slicer_space(std::string_view comment) {
   return {};
 }
 
+void take_comment(std::string_view comment, const char* where, SurfaceFile& result) {
+  if (const std::string space = slicer_space(comment); !space.empty()) {
+    result.frame = space;
+    result.frame_source = std::string(where) + " says SPACE=" + space + ", as 3D Slicer writes it";
+  }
+  for (const auto& [unit, metres] : {std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}, std::pair{"m", 1.0}}) {
+    if (comment.find(std::string("UNIT=") + unit) == std::string_view::npos) continue;
+    result.unit_m = metres;
+    result.unit_source = std::string(where) + " says UNIT=" + unit;
+    break;
+  }
+}
+
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file) {
   if (letters != "RAS" && letters != "LPS")
     throw InputError(file + ": its field SPACE says \"" + printable(letters) +

@@ -58,6 +58,9 @@ std::string printable(std::string_view name);
 
 /// "RAS" or "LPS" where a comment of 3D Slicer says "SPACE=RAS", "" where it says nothing.
 std::string slicer_space(std::string_view comment);
+/// Takes frame and unit from a comment or header: "SPACE=RAS" or "SPACE=LPS", as 3D Slicer writes them, and "UNIT=mm",
+/// "UNIT=cm" or "UNIT=m", which `organ export` adds. @param where "a comment", "the header", for messages
+void take_comment(std::string_view comment, const char* where, SurfaceFile& result);
 /// Takes the frame from the field "SPACE" that 3D Slicer writes into VTK files.
 /// @throws InputError for anything but RAS and LPS: axes that it names and nobody knows are no reason to take others
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file);
