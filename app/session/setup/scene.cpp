@@ -154,7 +154,7 @@ void draw_board(Scene& scene, const ShaftRoom* behind_tip) {
   const std::optional<int>& known = scene.setup.draw;
   const int first = known.value_or(0), end = known ? first + 1 : kBoardDraws;
   InstrumentMap map = scene.loop.map;
-  map.force_scale = scene.level.force_scale;
+  map.force_scale = std::max(0.0, scene.level.force_scale);  // "auto" is negative
   std::optional<Board> taken;
   std::exception_ptr refusal;
   for (int draw = first; draw < end; ++draw) {

@@ -142,6 +142,18 @@ TEST(ForceScale, ANumberBeyondTheDeviceIsRefusedByAnAttemptAndJudgedByTheProof) 
   EXPECT_FALSE(prove_level(exercise, "L1", organ_for(exercise), 0).sound);
 }
 
+TEST(ForceScale, WhereItFollowsFromTheBoardsNoneIsDrawnAgain) {
+  for (const char* id : {"surface-touch", "limited-grasp", "reach-and-orient"}) {
+    const Exercise exercise = automatic(id);
+    int again = 0;
+    for (int board = 0; board < kPracticeBoards; ++board)
+      again += scene_of(exercise, "L1", board, std::nullopt).draw > 0 ? 1 : 0;
+    for (int seed = 1; seed <= 20; ++seed)
+      again += scene_of(exercise, "L1", drawn_board(seed, false), std::nullopt).draw > 0 ? 1 : 0;
+    EXPECT_EQ(again, 0) << id;
+  }
+}
+
 TEST(ForceScale, ABoardThatAsksMoreThanTheDeviceCanGiveIsDrawnAgain) {
   Exercise exercise = automatic("surface-touch");
   exercise.levels.front().force_scale = 1;
