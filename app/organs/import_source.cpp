@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/organs/organ_files.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_reader.h"
@@ -93,16 +92,13 @@ std::vector<std::string> wanted_words(const OrganImportOptions& options) {
 
 /// One mask an organ, in files of their own. --name takes one of them where a file is called so; otherwise it names the
 /// scene.
-bool read_masks(const OrganImportOptions& options, ImportSource& source) {
-  std::vector<std::string> inputs{source.file};
-  if (options.labels.empty()) inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
-  const std::optional<OrganFiles> files = organ_files(inputs, options.progress);
+bool read_masks(const OrganImportOptions& options, const std::optional<OrganFiles>& given, ImportSource& source) {
+  std::optional<OrganFiles> of_labels;
+  if (!options.labels.empty()) of_labels = organ_files({options.labels}, options.progress);
+  const std::optional<OrganFiles>& files = options.labels.empty() ? given : of_labels;
   if (!files || files->volumes.empty()) return false;
   std::vector<std::string> wanted = wanted_words(options);
-  const bool file_of_name = std::any_of(files->volumes.begin(), files->volumes.end(), [&](const OrganFile& file) {
-    return folded_name(file.name) == folded_name(options.name);
-  });
-  if (options.label.empty() && !file_of_name) wanted.clear();
+  if (options.label.empty() && !holds_name(files->volumes, options.name)) wanted.clear();
   CombinedMasks masks = combined_masks(*files, wanted, reading_of(options), options.progress);
   source.map = std::move(masks.map);
   source.origin = std::move(masks.origin);
@@ -111,8 +107,8 @@ bool read_masks(const OrganImportOptions& options, ImportSource& source) {
 }
 
 /// The labels of the file that holds them, and the images beside them in a DICOM input that was given alone.
-void read_labels(const OrganImportOptions& options, ImportSource& source) {
-  if (read_masks(options, source)) return;
+void read_labels(const OrganImportOptions& options, const std::optional<OrganFiles>& masks, ImportSource& source) {
+  if (read_masks(options, masks, source)) return;
   if (is_volume_file(source.file)) {
     source.map = read_label_map(source.file, options.progress, reading_of(options));
     return;
@@ -209,7 +205,7 @@ std::string hash_of_input(const std::string& input) {
   return digest::of_bytes(all);
 }
 
-ImportSource read_import_source(const OrganImportOptions& options) {
+ImportSource read_import_source(const OrganImportOptions& options, const std::optional<OrganFiles>& masks) {
   check_source_options(options);
   ImportSource source;
   source.file = options.labels.empty() ? options.input : options.labels;
@@ -218,7 +214,7 @@ ImportSource read_import_source(const OrganImportOptions& options) {
   if (by_window)
     source.map = segmented(options, *source.image);
   else
-    read_labels(options, source);
+    read_labels(options, masks, source);
   if (source.image && !by_window) relate(source, options.progress);
   tell_origin(options, source);
   return source;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/organs/import_options.h"
+#include "app/organs/organ_files.h"
 #include "tissue/imaging/labels/label_map.h"
 #include "tissue/imaging/labels/label_values.h"
 #include "tissue/imaging/volumes/image_volume.h"
@@ -33,8 +34,9 @@ bool is_surface_input(const OrganImportOptions& options);
 
 /// Reads image and labels, segments by a window of values when one was given, and checks that the labels lie in the
 /// image.
+/// @param masks that the input is, one an organ; nothing for another input
 /// @throws InputError naming the file and what is wrong; EnvironmentError
-ImportSource read_import_source(const OrganImportOptions& options);
+ImportSource read_import_source(const OrganImportOptions& options, const std::optional<OrganFiles>& masks = {});
 
 /// What the image holds under a segment, related through patient space; no voxels without an image.
 LabelValues image_values(const ImportSource& source, const Segment& segment);

@@ -9,8 +9,10 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
+#include "app/organs/organ_package.h"
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "tissue/mesh/files/surface_writer.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/staged_file.h"
@@ -19,13 +21,11 @@ namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
+
 /// Made by Trocar, of what, and under which licence: one line.
 std::string made_of(const Organ& organ) {
-  std::string line = std::string("Trocar organ ") + organ.name + (organ.synthetic ? " (synthetic)" : "") +
-                     ", licence " + organ.licence + (organ.credit.empty() ? "" : ", " + organ.credit);
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return line;
+  return harmless("Trocar organ " + organ.name + (organ.synthetic ? " (synthetic)" : "") + ", licence " +
+                  organ.licence + (organ.credit.empty() ? "" : ", " + organ.credit));
 }
 
 /// @param what that named it, for the message.
@@ -39,7 +39,7 @@ const SurfaceFormat& format_named(const std::string& name, const std::string& wh
 
 std::vector<SurfacePartOut> parts_of(const std::vector<const Organ*>& organs) {
   std::vector<SurfacePartOut> parts;
-  for (const Organ* organ : organs) parts.push_back({organ->name, made_of(*organ), &organ->surface});
+  for (const Organ* organ : organs) parts.push_back({harmless(organ->name), made_of(*organ), &organ->surface});
   return parts;
 }
 
@@ -70,8 +70,7 @@ int organ_export(const OrganExportOptions& options, std::ostream& out, std::ostr
   if (without_subject(given) == given)  // a scene without # is all of it
     for (const Organ& adjacent : organ.adjacent) organs.push_back(&adjacent);
   for (const Organ* one : organs)
-    if (one->licence.empty() || one->licence == "unknown")
-      err << "note: " << one->name << " has no licence: it may not be passed on\n";
+    if (!has_licence(one->licence)) err << "note: " << one->name << " has no licence: it may not be passed on\n";
   const std::string suffix = options.output.extension().string();
   if (!suffix.empty()) {
     const SurfaceFormat& format = format_named(suffix.substr(1), options.output.string());

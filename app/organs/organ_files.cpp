@@ -169,6 +169,11 @@ class MaskGatherer {
 
 }  // namespace
 
+bool holds_name(const std::vector<OrganFile>& files, const std::string& name) {
+  return std::any_of(files.begin(), files.end(),
+                     [&](const OrganFile& file) { return folded_name(file.name) == folded_name(name); });
+}
+
 std::string plain_stem(const fs::path& path) {
   const std::string file = path.filename().string();
   for (const std::string_view suffix : {".nii.gz", ".seg.nrrd", ".hdr.gz"})
@@ -188,11 +193,10 @@ std::vector<OrganFile> OrganFiles::chosen(const std::vector<OrganFile>& files,
       found.push_back(*file);
       continue;
     }
-    std::string names;
-    for (std::size_t n = 0; n < std::min<std::size_t>(files.size(), 20); ++n)
-      names += (n > 0 ? ", " : "") + files[n].name;
-    if (files.size() > 20) names += " and " + std::to_string(files.size() - 20) + " more";
-    throw InputError(input + ": holds no file of \"" + word + "\"; it holds " + names);
+    constexpr std::size_t kListed = 20;
+    std::vector<std::string> names;
+    for (const OrganFile& one : files) names.push_back(one.name);
+    throw InputError(input + ": holds no file of \"" + word + "\"; it holds " + listed_words(names, kListed));
   }
   return found;
 }

@@ -25,6 +25,9 @@ struct OrganFile {
   std::string name;  ///< without folder and endings: "kidney_left" of "kidney_left.nii.gz"
 };
 
+/// Whether one of the files is called so, in any spelling of case.
+bool holds_name(const std::vector<OrganFile>& files, const std::string& name);
+
 struct OrganFiles {
   std::string input;                   ///< as it was given, for messages
   std::vector<OrganFile> volumes;      ///< by name

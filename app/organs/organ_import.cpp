@@ -275,9 +275,7 @@ WrittenOrgans import_surface_scene(const OrganImportOptions& options, const Orga
 /// The surfaces of a folder, a zip or a list: one where --label or --name asks for one, else a scene.
 WrittenOrgans import_surfaces(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
   OrganImportOptions asked = options;
-  const auto is_name = [&](const OrganFile& file) { return folded_name(file.name) == folded_name(options.name); };
-  if (asked.label.empty() && std::any_of(files.surfaces.begin(), files.surfaces.end(), is_name))
-    asked.label = {options.name};
+  if (asked.label.empty() && holds_name(files.surfaces, options.name)) asked.label = {options.name};
   const std::vector<OrganFile> chosen = files.chosen(files.surfaces, asked.label);
   if (chosen.size() > 1 || options.output.ends_with(kOrganSetSuffix)) return import_surface_scene(asked, files, stem);
   asked.label.clear(), asked.all = false;
@@ -361,12 +359,10 @@ void write(const OrganImportOptions& options, WrittenOrgans& written) {
 /// "liver, spleen and 3 more": organs that the image does not hold whole; "" for none.
 std::string cut_organs(const WrittenOrgans& written) {
   constexpr std::size_t kListed = 6;
-  std::string text;
-  std::size_t count = 0;
+  std::vector<std::string> names;
   for (const CompiledMember& organ : written.organs)
-    if (organ.manifest.mesh.cut_at_border() && ++count <= kListed)
-      text += (text.empty() ? "" : ", ") + organ.manifest.name;
-  return count > kListed ? text + " and " + std::to_string(count - kListed) + " more" : text;
+    if (organ.manifest.mesh.cut_at_border()) names.push_back(organ.manifest.name);
+  return listed_words(names, kListed);
 }
 
 std::vector<OrganCrossing> crossings_of(const WrittenOrgans& written) {
@@ -395,8 +391,9 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
 
 /// Labels of an image, a map or several masks. Masks in files of their own are a scene of all of them unless some were
 /// asked for.
-WrittenOrgans import_labels(const OrganImportOptions& options, const fs::path& stem) {
-  ImportSource source = read_import_source(options);
+WrittenOrgans import_labels(const OrganImportOptions& options, const std::optional<OrganFiles>& masks,
+                            const fs::path& stem) {
+  ImportSource source = read_import_source(options, masks);
   OrganImportOptions asked = options;
   if (!source.origin.empty() && options.label.empty() && source.map.segments.size() > 1) asked.all = true;
   if (asked.label_table.empty()) asked.label_table = source.map.table;
@@ -408,14 +405,12 @@ WrittenOrgans import_labels(const OrganImportOptions& options, const fs::path& s
                : import_label(asked, std::move(source), labels.front(), decisions, stem);
 }
 
-/// Surfaces in several files, a folder or a zip; nothing where the input is something else.
-std::optional<OrganFiles> surface_files(const OrganImportOptions& options) {
+/// Masks or surfaces in several files, a folder or a zip; nothing where the input is something else.
+std::optional<OrganFiles> input_files(const OrganImportOptions& options) {
   std::vector<std::string> inputs{options.input};
   inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
   const bool maybe = inputs.size() > 1 || !is_volume_file(options.input);
-  std::optional<OrganFiles> files = maybe ? organ_files(inputs, options.progress) : std::nullopt;
-  if (!files || files->surfaces.empty()) return std::nullopt;
-  return files;
+  return maybe ? organ_files(inputs, options.progress) : std::nullopt;
 }
 
 }  // namespace
@@ -425,12 +420,13 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
   const fs::path stem = stem_of(options.output);
   check_not_input(stem, options);
   WrittenOrgans written;
-  if (is_surface_input(options))
+  if (is_surface_input(options)) {
     written = import_surface_file(options, options.input, stem);
-  else if (const auto surfaces = surface_files(options))
-    written = import_surfaces(options, *surfaces, stem);
-  else
-    written = import_labels(options, stem);
+  } else {
+    const std::optional<OrganFiles> files = input_files(options);
+    written = files && !files->surfaces.empty() ? import_surfaces(options, *files, stem)
+                                                : import_labels(options, files, stem);
+  }
   written.stem = stem;
   CompiledMember& first = written.organs.front();
   if (written.set) enter_surfaces(stem, *written.set, written.organs);

@@ -46,17 +46,15 @@ std::string output_name(const OrganImportOptions& options) {
 
 std::string numbered(const std::vector<const Segment*>& nameless) {
   constexpr std::size_t kMost = 12;
-  std::string text = nameless.size() == 1 ? "label " : "labels ";
-  for (std::size_t n = 0; n < std::min(nameless.size(), kMost); ++n)
-    text += (n > 0 ? ", " : "") + std::to_string(nameless[n]->number);
-  if (nameless.size() > kMost) text += " and " + std::to_string(nameless.size() - kMost) + " more";
-  return text;
+  std::vector<std::string> numbers;
+  for (const Segment* segment : nameless) numbers.push_back(std::to_string(segment->number));
+  return (nameless.size() == 1 ? "label " : "labels ") + listed_words(numbers, kMost);
 }
 
 [[noreturn]] void ask(const std::vector<const Segment*>& nameless, const LabelMap& map, const std::string& file,
                       bool scene) {
-  std::string tables;
-  for (const std::string& table : guess_label_table(map)) tables += (tables.empty() ? "" : ", ") + table;
+  const std::vector<std::string> fitting = guess_label_table(map);
+  const std::string tables = listed_words(fitting, fitting.size());
   throw InputError(file + ": " + numbered(nameless) + (nameless.size() == 1 ? " has" : " have") +
                    " no name in the file, so nothing says what it is or how it feels: say which table numbered it "
                    "(--label-table NAME, or a file of lines \"1,liver\"" +

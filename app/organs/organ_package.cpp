@@ -21,13 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether somebody said under what terms it may be passed on.
-bool has_licence(std::string licence) {
-  std::erase_if(licence, [](unsigned char letter) { return std::isspace(letter) != 0; });
-  for (char& letter : licence) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return !licence.empty() && licence != "unknown" && licence != "none";
-}
-
 void require_licence(const Organ& organ, const fs::path& manifest) {
   if (!has_licence(organ.licence))
     throw InputError(manifest.string() + ": " + organ.name +
@@ -82,6 +75,12 @@ class Package {
 };
 
 }  // namespace
+
+bool has_licence(std::string licence) {
+  std::erase_if(licence, [](unsigned char letter) { return std::isspace(letter) != 0; });
+  for (char& letter : licence) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return !licence.empty() && licence != "unknown" && licence != "none";
+}
 
 int organ_package(const OrganPackageOptions& options, std::ostream& out, std::ostream&) {
   if (options.organs.empty()) throw InputError("organ package: no organ was named");

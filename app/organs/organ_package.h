@@ -17,6 +17,9 @@ struct OrganPackageOptions {
   std::filesystem::path output;  ///< FILE.zip
 };
 
+/// Whether somebody said under what terms it may be passed on.
+bool has_licence(std::string licence);
+
 /// @return exit code 0
 int organ_package(const OrganPackageOptions& options, std::ostream& out, std::ostream& err);
 

@@ -147,13 +147,19 @@ std::string organ_json(const OrganManifest& manifest, const Eigen::AlignedBox3d&
   return organ_object(manifest, bounds).dump(2) + "\n";
 }
 
+namespace {
+std::string headline(const OrganManifest& manifest) {
+  return manifest.name + (manifest.synthetic ? " (synthetic)" : "") + ", material " + manifest.material;
+}
+}  // namespace
+
 std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds) {
   const MeshFacts& mesh = manifest.mesh;
   const Vec3 extent = bounds.sizes() * 1e3;
   std::ostringstream out;
   out.setf(std::ios::fixed);
   out.precision(2);
-  out << manifest.name << (manifest.synthetic ? " (synthetic)" : "") << ", material " << manifest.material << "\n"
+  out << headline(manifest) << "\n"
       << "  surface    " << manifest.surface << ", " << mesh.topology.vertices << " vertices, "
       << mesh.topology.triangles << " triangles, " << (mesh.topology.closed() ? "closed" : "OPEN") << ", "
       << (mesh.topology.manifold() ? "manifold" : "NOT MANIFOLD") << ", genus " << mesh.topology.genus << ", "
@@ -190,7 +196,7 @@ std::string organ_summary(const OrganManifest& manifest, const Eigen::AlignedBox
   std::ostringstream out;
   out.setf(std::ios::fixed);
   out.precision(2);
-  out << manifest.name << (manifest.synthetic ? " (synthetic)" : "") << ", material " << manifest.material << ", from "
+  out << headline(manifest) << ", from "
       << (source.label ? "label " + std::to_string(*source.label) +
                              (source.label_name.empty() ? "" : " \"" + source.label_name + "\"") + " of "
                        : "")

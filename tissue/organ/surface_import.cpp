@@ -32,10 +32,9 @@ std::vector<SurfacePart> parts_of(const SurfaceFile& file) {
 std::string listed_pieces(const std::vector<SurfacePart>& parts) {
   constexpr std::size_t kListed = 12;
   if (parts.size() < 2 && (parts.empty() || parts[0].name.empty())) return {};
-  std::string text;
-  for (std::size_t n = 0; n < std::min(parts.size(), kListed); ++n) text += (n > 0 ? ", " : "") + parts[n].name;
-  if (parts.size() > kListed) text += " and " + std::to_string(parts.size() - kListed) + " more";
-  return " (its parts: " + text + ")";
+  std::vector<std::string> names;
+  for (const SurfacePart& part : parts) names.push_back(part.name);
+  return " (its parts: " + listed_words(names, kListed) + ")";
 }
 
 void append_surface(TriangleSurface& whole, const TriangleSurface& part) {

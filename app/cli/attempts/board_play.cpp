@@ -2,10 +2,10 @@
 
 #include <atomic>
 #include <mutex>
-#include <sstream>
 
 #include "app/cli/in_parallel.h"
 #include "app/cli/progress_display.h"
+#include "app/cli/text_table.h"
 #include "app/session/playback/expert_run.h"
 #include "app/session/recording/recording_reader.h"
 #include "app/session/session.h"
@@ -16,16 +16,9 @@
 namespace trocar {
 namespace {
 
-std::string points(double score) {
-  std::ostringstream words;
-  words.precision(1);
-  words << std::fixed << score;
-  return words.str();
-}
-
 std::string refusal_of(const Grade& grade) {
   if (grade.status != AttemptStatus::kCompleted) return std::string("the expert ended it ") + status_name(grade.status);
-  return grade.passed ? "" : "the expert finished it with " + points(grade.score.value_or(0)) + " and did not pass";
+  return grade.passed ? "" : "the expert finished it with " + cell(grade.score, 1) + " and did not pass";
 }
 
 /// Plays until somebody stops it.
@@ -81,7 +74,7 @@ std::string PlayedLevel::why() const {
 
 PlayedLevel play_level(const Exercise& exercise, const std::string& level, const std::string& organ,
                        const AssetRoots& assets, std::ostream& err) {
-  PlayedLevel played{exercise.id, level, std::vector<PlayedBoard>(kPracticeBoards)};
+  PlayedLevel played{std::vector<PlayedBoard>(kPracticeBoards)};
   const bool exam = find_level(exercise, level).exam;
   AttemptSetup any;
   any.exercise = exercise;

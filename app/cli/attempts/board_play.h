@@ -23,7 +23,6 @@ struct PlayedBoard {
 
 /// What the expert made of a level: practice boards 0 to 19; of an exam those that seeds 0 to 19 draw.
 struct PlayedLevel {
-  std::string exercise, level;
   std::vector<PlayedBoard> boards;
   /// "" when all are sound, else the first that is not, and how many.
   std::string why() const;

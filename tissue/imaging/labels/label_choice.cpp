@@ -134,15 +134,12 @@ Segment choose_segment(const LabelMap& map, std::string_view wanted, const Label
 }
 
 std::string listed_segments(const LabelMap& map, const LabelTable* table, std::size_t most) {
-  std::string text;
-  std::size_t count = 0;
+  std::vector<std::string> words;
   for (const Segment& segment : map.segments) {
-    if (++count > most) break;
     const std::string name = name_of(segment, table);
-    text += (text.empty() ? "" : ", ") + std::to_string(segment.number) + (name.empty() ? "" : " " + name);
+    words.push_back(std::to_string(segment.number) + (name.empty() ? "" : " " + name));
   }
-  if (map.segments.size() > most) text += " and " + std::to_string(map.segments.size() - most) + " more";
-  return text;
+  return listed_words(words, most);
 }
 
 }  // namespace trocar

@@ -33,6 +33,12 @@ std::string folded_name(std::string_view name) {
   return folded;
 }
 
+std::string listed_words(const std::vector<std::string>& words, std::size_t most) {
+  std::string text;
+  for (std::size_t n = 0; n < std::min(words.size(), most); ++n) text += (n > 0 ? ", " : "") + words[n];
+  return words.size() > most ? text + " and " + std::to_string(words.size() - most) + " more" : text;
+}
+
 std::optional<SegmentColour> colour_of(double red, double green, double blue) {
   SegmentColour colour{};
   std::size_t place = 0;

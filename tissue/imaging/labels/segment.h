@@ -38,6 +38,9 @@ std::string readable_name(std::string text);
 /// neither letter nor digit one '_' between words; other letters of UTF-8 stay.
 std::string folded_name(std::string_view name);
 
+/// "a, b and 7 more".
+std::string listed_words(const std::vector<std::string>& words, std::size_t most);
+
 /// Colour from parts of one. @returns nothing unless all three are numbers from 0 to 1
 std::optional<SegmentColour> colour_of(double red, double green, double blue);
 

@@ -193,14 +193,11 @@ bool of_phantom(const VolumeHeader& header, const std::vector<std::size_t>& coun
   return header.description == kPhantomDescription && counts[phantom_label::kSkin] > 0;
 }
 
-/// Segments that mark no voxel, in one sentence: a table names every organ that could be.
+/// Segments that mark no voxel, in one sentence: a table names every organ that could be. @param names in quotes
 void note_unmarked(const std::vector<std::string>& names, std::vector<std::string>& notes) {
   constexpr std::size_t kListed = 3;
   if (names.empty()) return;
-  std::string text;
-  for (std::size_t n = 0; n < std::min(names.size(), kListed); ++n)
-    text += (n > 0 ? ", " : "") + ("\"" + names[n] + "\"");
-  if (names.size() > kListed) text += " and " + std::to_string(names.size() - kListed) + " more";
+  const std::string text = listed_words(names, kListed);
   notes.push_back(names.size() == 1 ? "segment " + text + " marks no voxel and was left out"
                                     : "segments " + text + " mark no voxel and were left out");
 }
@@ -221,7 +218,8 @@ void list_segments(const VolumeHeader& header, const LabelTaker& taker, LabelMap
   }
   std::vector<std::string> unmarked;
   for (const Segment& segment : header.segments)
-    if (taker.counts(segment.layer)[static_cast<std::size_t>(segment.number)] == 0) unmarked.push_back(segment.name);
+    if (taker.counts(segment.layer)[static_cast<std::size_t>(segment.number)] == 0)
+      unmarked.push_back("\"" + segment.name + "\"");
   note_unmarked(unmarked, map.notes);
   map.layers = std::move(layers);
 }

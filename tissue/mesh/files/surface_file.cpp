@@ -92,11 +92,15 @@ void take_comment(std::string_view comment, const char* where, SurfaceFile& resu
     result.frame = space;
     result.frame_source = std::string(where) + " says SPACE=" + space + ", as 3D Slicer writes it";
   }
+  constexpr std::string_view kUnit = "UNIT=";
+  const std::size_t at = comment.find(kUnit);
+  if (at == std::string_view::npos) return;
+  const std::string_view rest = comment.substr(at + kUnit.size());
+  const std::string_view word = rest.substr(0, rest.find_first_of(std::string_view(" \t\r\n\0", 5)));
   for (const auto& [unit, metres] : {std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}, std::pair{"m", 1.0}}) {
-    if (comment.find(std::string("UNIT=") + unit) == std::string_view::npos) continue;
+    if (word != unit) continue;
     result.unit_m = metres;
     result.unit_source = std::string(where) + " says UNIT=" + unit;
-    break;
   }
 }
 

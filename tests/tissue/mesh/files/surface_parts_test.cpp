@@ -97,6 +97,20 @@ TEST(Names, AreSafeToPrint) {
   EXPECT_EQ(slicer_space("a solid without a word"), "");
 }
 
+TEST(SurfaceComment, SaysFrameAndUnitAsWholeWords) {
+  for (const auto& [comment, unit_m] :
+       {std::pair{"SPACE=RAS UNIT=mm", 1e-3}, std::pair{"UNIT=cm\nelement", 1e-2}, std::pair{"UNIT=m", 1.0}}) {
+    SurfaceFile file;
+    take_comment(comment, "a comment", file);
+    EXPECT_EQ(file.unit_m, unit_m) << comment;
+  }
+  for (const char* other : {"UNIT=micron", "UNIT=mmHg", "UNIT=", "unit=mm"}) {
+    SurfaceFile file;
+    take_comment(other, "a comment", file);
+    EXPECT_EQ(file.unit_m, std::nullopt) << other;
+  }
+}
+
 TEST(Names, CountsAboveTheCapAreRefused) {
   EXPECT_NO_THROW(check_count(5, 5, "triangles", "f"));
   EXPECT_CONTAINS(message_of<InputError>([] { check_count(6, 5, "triangles", "f.stl"); }),
