@@ -149,18 +149,20 @@ Board lay_out(const Scene& scene, int board, const ShaftRoom* behind_tip) {
 
 /// Draws until the device can do what the board asks for. On an organ of one's own a few boards of a level come out
 /// with too few discs, or where gravity and the hard limit are more than a motor can give. The nominal device is asked,
-/// so that a number means the same board at every station. A level whose kappa follows from its boards asks no force.
+/// so that a number means the same board at every station. Where kappa follows from
+/// the boards, the first that can be laid out is taken: a port that no board can use must show in the proof.
 void draw_board(Scene& scene, const ShaftRoom* behind_tip) {
   const std::optional<int>& known = scene.setup.draw;
   const int first = known.value_or(0), end = known ? first + 1 : kBoardDraws;
   InstrumentMap map = scene.loop.map;
-  map.force_scale = std::max(0.0, scene.level.force_scale);  // "auto" is negative
+  map.force_scale = scene.level.force_scale;
+  const bool judged = map.force_scale > 0;  // "auto" follows from the boards as they are drawn first
   std::optional<Board> taken;
   std::exception_ptr refusal;
   for (int draw = first; draw < end; ++draw) {
     try {
       Board board = lay_out(scene, scene.setup.board + draw * kBetweenDraws, behind_tip);
-      const bool sound = board_reach(scene.setup.exercise, board, device_model({}), map).sound({});
+      const bool sound = !judged || board_reach(scene.setup.exercise, board, device_model({}), map).sound({});
       if (!taken || sound) {
         taken = std::move(board);
         scene.draw = draw;
