@@ -127,6 +127,25 @@ void CurriculumScreen::advice(Ui& ui, PracticeModel& model) const {
   ui.heading(w("Next for you"));
   if (at != all.end()) ui.marked(Mark::kPlay, lesson_title(w, *at, next_.level) + ": " + next_.why);
   if (!wrong_.empty()) ui.marked(Mark::kWarning, wrong_, Ink::kAlarm);
+  programme(ui, model);
+}
+
+/// What is to be done of the trainee's programmes besides next_, the latest first: as much as there is room for.
+void CurriculumScreen::programme(Ui& ui, const PracticeModel& model) const {
+  constexpr int kShown = 2;
+  const Translator& w = model.words();
+  if (model.due().empty()) return;
+  ui.heading(w("Your programme: {0} to do", {std::to_string(model.due().size())}));
+  int shown = 0;
+  for (const Reminder& one : model.due()) {
+    const auto at = std::find_if(model.exercises().begin(), model.exercises().end(),
+                                 [&one](const Exercise& e) { return e.id == one.step.exercise_id; });
+    if (one.step.exercise_id == next_.exercise_id && one.step.level == next_.level) continue;
+    if (++shown > kShown) return;
+    const bool late = one.state == StepState::kOverdue;
+    ui.marked(late ? Mark::kWarning : Mark::kOpen, lesson_title(w, *at, one.step.level) + ": " + model.due_words(one),
+              late ? Ink::kAlarm : Ink::kText);
+  }
 }
 
 void CurriculumScreen::caption(Ui& ui, const PracticeModel& model) const {

@@ -46,6 +46,7 @@ class CurriculumScreen final : public Screen {
   void head(Ui& ui, PracticeModel& model) const;
   void facts(Ui& ui, PracticeModel& model, double sparkline_at_720) const;
   void advice(Ui& ui, PracticeModel& model) const;
+  void programme(Ui& ui, const PracticeModel& model) const;
   void caption(Ui& ui, const PracticeModel& model) const;
   std::optional<ScreenName> act(const std::string& chosen, PracticeModel& model);
 

@@ -200,6 +200,7 @@ std::string PracticeModel::sign_in(const std::string& code, const std::string& p
     s.trainee = TraineeStore(*s.database).ensure_trainee(code).code;
     if (const std::string said = s.recovered_words(s.trainee); !said.empty()) notice = said;
     s.look_for_note();
+    s.look_for_due();
     s.message.reset();
     s.session = make_uuid();
     return "";
@@ -213,6 +214,7 @@ std::string PracticeModel::sign_in(const std::string& code, const std::string& p
 void PracticeModel::sign_out() {
   state_->trainee = state_->scripted() ? kDemonstration : kGuest;
   state_->note.reset();
+  state_->due.clear();
   state_->message.reset();
   state_->session = make_uuid();
 }
@@ -241,8 +243,19 @@ LevelProgress PracticeModel::progress(const std::string& id, const std::string& 
   return at == all.end() ? LevelProgress{} : level_progress(*at, of_level, state_->attempts(id));
 }
 
+const std::vector<Reminder>& PracticeModel::due() const { return state_->due; }
+
+std::string PracticeModel::due_words(const Reminder& step) const {
+  const Translator& w = state_->words;
+  if (step.due.empty()) return w("In the programme {0}.", {step.programme});
+  return w(step.state == StepState::kOverdue ? "Overdue since {0}." : "Due by {0}.", {step.due});
+}
+
 PracticeModel::Advice PracticeModel::next() const {
   const Translator& w = state_->words;
+  for (const Reminder& one : state_->due)
+    if (progress(one.step.exercise_id, one.step.level).unlocked)
+      return {one.step.exercise_id, one.step.level, due_words(one)};
   const auto found = next_step(practice_order(state_->exercises, is_guest()),
                                [this](const Exercise& e, const std::string& name) { return progress(e.id, name); });
   if (!found) {
@@ -405,7 +418,10 @@ bool PracticeModel::end_attempt() {
     notice = s.words("The attempt ended without a result: {0}", {error.what()});
     return false;
   }
-  if (!s.database->in_memory()) return true;
+  if (!s.database->in_memory()) {
+    s.look_for_due();
+    return true;
+  }
   PastAttempt past = past_attempt(*s.result);
   s.unkept.insert(s.unkept.begin(), past.summary);
   s.unkept_numbers.insert(s.unkept_numbers.begin(), std::move(past));

@@ -19,6 +19,7 @@
 #include "app/window/sound/sound.h"
 #include "app/window/words/translator.h"
 #include "scenarios/exercise.h"
+#include "trainees/desk/queries/programme_query.h"
 #include "trainees/progress/past_attempts.h"
 #include "trainees/records/attempt_store.h"
 
@@ -102,7 +103,12 @@ class PracticeModel {
   struct Advice {
     std::string exercise_id, level, why;
   };
-  Advice next() const;
+  Advice next() const;  ///< of the trainee's programmes first, where a step of them is open
+  /// Steps of the trainee's programmes that are to be done, the latest first (next_steps()), of what this program has;
+  /// as they stood at sign-in or after the last attempt. Nothing while the database does not answer.
+  const std::vector<Reminder>& due() const;
+  /// "Due by 2026-06-30.", "Overdue since 2026-06-30.", "In the programme Autumn."
+  std::string due_words(const Reminder& step) const;
   /// Newest note of a teacher for this trainee; none until the record has notes.
   std::optional<std::string> teacher_note() const;
 

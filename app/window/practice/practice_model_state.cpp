@@ -128,6 +128,23 @@ void PracticeModel::State::look_for_note() {
   }
 }
 
+/// At sign-in and after each attempt. Steps of exercises that this program does not have are left to others.
+void PracticeModel::State::look_for_due() {
+  due.clear();
+  if (database->in_memory() || trainee == kGuest || trainee == kDemonstration) return;
+  try {
+    due = next_steps(*database, trainee, utc_now());
+  } catch (const EnvironmentError&) {
+  }
+  std::erase_if(due, [this](const Reminder& one) {
+    return std::none_of(exercises.begin(), exercises.end(), [&one](const Exercise& e) {
+      return e.id == one.step.exercise_id &&
+             std::any_of(e.levels.begin(), e.levels.end(),
+                         [&one](const ExerciseLevel& level) { return level.name == one.step.level; });
+    });
+  });
+}
+
 /// It stood on the course's page, and the next attempt has begun. What cannot be written now is shown once more.
 void PracticeModel::State::note_was_met() {
   if (!note) return;

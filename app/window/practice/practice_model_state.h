@@ -37,6 +37,7 @@ struct PracticeModel::State {
   std::unique_ptr<Database> database;
   std::string trainee = kGuest, session = make_uuid();  // session: of a sign-in
   std::optional<Note> note;                             // of a teacher, that the trainee has not met yet
+  std::vector<Reminder> due;                            // of the trainee's programmes
   std::unique_ptr<AttemptRunner> runner;
   Play play = Play::kAttempt;                            // of the runner
   std::vector<std::unique_ptr<AttemptRunner>> unstored;  // over, but the database has not taken them yet
@@ -79,6 +80,7 @@ struct PracticeModel::State {
   std::vector<AttemptSummary> attempts(const std::string& exercise) const;
   void look_for_note();
   void note_was_met();
+  void look_for_due();
   void tell_desk(bool guest);
   void look_for_message();
   bool show_message(std::string& notice);

@@ -246,6 +246,9 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                     (view.erased == 0 ? "" : ", " + std::to_string(view.erased) + " erased and left out") + ", rules " +
                     escape_html(view.rules_version.empty() ? "unknown" : view.rules_version) +
                     "</p><p class=\"files\">" + link_html("/cohort.csv" + with(asked, "", ""), "CSV") +
+                    (view.any_attempt ? " " + link_html("/certificates.csv" + query_html({{"group", asked.group}}),
+                                                        "Certificates (CSV)")
+                                      : "") +
                     (frame.pdf ? " " + link_html("/report/cohort.pdf" + with(asked, "", ""), "PDF") : "") +
                     "</p></div><div class=\"states\">";
   for (const CardWords& words : kCards) out += card(view, words);

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "haptics/input_error.h"
 #include "trainees/desk/assets/assets.h"
 #include "trainees/desk/pages/pages.h"
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/server/path_redaction.h"
+#include "trainees/exchange/export/certificate_export.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar::review {
@@ -21,12 +23,13 @@ Response html_answer(std::string body) {
   return out;
 }
 
-Response file(std::string body, const std::string& name) {
-  Response out;
-  out.type = "text/csv; charset=utf-8";
-  out.body = std::move(body);
-  out.download = name;
-  return out;
+/// Certificates of whoever has an attempt, or of a group's, as export writes them.
+Response certificates(const Request& request, Desk& desk) {
+  ExportFilter filter;
+  filter.group = argument(request.query, "group");
+  std::ostringstream out;
+  write_certificates_csv(chosen_certificates(desk.database, choose_attempts(desk.database, filter)), out);
+  return csv_file(out.str(), "certificates.csv");
 }
 
 Response refused(const Request& request, Desk& desk, int status, const std::string& title, const std::string& words) {
@@ -108,6 +111,14 @@ Response see(const std::string& location) {
   return out;
 }
 
+Response csv_file(std::string body, const std::string& name) {
+  Response out;
+  out.type = "text/csv; charset=utf-8";
+  out.body = std::move(body);
+  out.download = name;
+  return out;
+}
+
 void require_confirmed(const Request& request) {
   if (!request.unconfirmed.empty()) throw InputError(request.unconfirmed);
 }
@@ -129,20 +140,21 @@ std::vector<Route> page_routes() {
     return html_answer(why_page(why_view(d, r), frame_of(r, d)));
   }));
   out.push_back(page_route("/cohort.csv", Audience::kInstructors, [](const Request& r, Desk& d) {
-    return file(cohort_csv(cohort_view(d, r)), "cohort.csv");
+    return csv_file(cohort_csv(cohort_view(d, r)), "cohort.csv");
   }));
+  out.push_back(page_route("/certificates.csv", Audience::kInstructors, certificates));
   out.push_back(page_route("/trainee/{code}", Audience::kOwnData, [](const Request& r, Desk& d) {
     return html_answer(trainee_page(trainee_view(d, r), frame_of(r, d)));
   }));
   out.push_back(page_route("/trainee/{code}/attempts.csv", Audience::kOwnData, [](const Request& r, Desk& d) {
-    return file(trainee_csv(trainee_view(d, r)), "attempts-" + argument(r.arguments, "code") + ".csv");
+    return csv_file(trainee_csv(trainee_view(d, r)), "attempts-" + argument(r.arguments, "code") + ".csv");
   }));
   out.push_back(page_route("/attempt/{attempt}", Audience::kOwnData, [](const Request& r, Desk& d) {
     return html_answer(attempt_page(attempt_view(d, r, argument(r.arguments, "attempt")), frame_of(r, d)));
   }));
   out.push_back(page_route("/attempt/{attempt}/attempt.csv", Audience::kOwnData, [](const Request& r, Desk& d) {
-    return file(attempt_csv(attempt_view(d, r, argument(r.arguments, "attempt"))),
-                "attempt-" + argument(r.arguments, "attempt") + ".csv");
+    return csv_file(attempt_csv(attempt_view(d, r, argument(r.arguments, "attempt"))),
+                    "attempt-" + argument(r.arguments, "attempt") + ".csv");
   }));
   out.push_back(page_route("/attempt/{attempt}/picture.png", Audience::kOwnData, picture));
   out.push_back(page_route("/attempt/{attempt}/heat.png", Audience::kOwnData, heat));

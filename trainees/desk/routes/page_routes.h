@@ -21,6 +21,8 @@ std::vector<Route> admin_routes();       ///< accounts, the record itself, its a
 /// What the action answers; a page with the reason where it throws an InputError. @param status of that page.
 Response answered(const Request& request, Desk& desk, int status, const std::function<Response()>& action);
 Response see(const std::string& location);  ///< 303
+/// A table that the browser saves under that name.
+Response csv_file(std::string body, const std::string& name);
 /// @throws InputError: why the password that was given again does not count.
 void require_confirmed(const Request& request);
 

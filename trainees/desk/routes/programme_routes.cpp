@@ -11,14 +11,6 @@ namespace {
 
 Response programme_answer(std::string body, int status = 200) { return {.status = status, .body = std::move(body)}; }
 
-Response programme_file(std::string body, const std::string& name) {
-  Response out;
-  out.type = "text/csv; charset=utf-8";
-  out.body = std::move(body);
-  out.download = name;
-  return out;
-}
-
 Response programmes(const Request& request, Desk& desk) {
   return programme_answer(programmes_page(programmes_view(desk), frame_of(request, desk)));
 }
@@ -116,7 +108,7 @@ Response grid(const Request& request, Desk& desk) {
 }
 
 Response grid_file(const Request& request, Desk& desk) {
-  return programme_file(grid_csv(grid_view(desk, request)), "grid.csv");
+  return csv_file(grid_csv(grid_view(desk, request)), "grid.csv");
 }
 
 Response late(const Request& request, Desk& desk) {
@@ -124,7 +116,7 @@ Response late(const Request& request, Desk& desk) {
 }
 
 Response late_file(const Request& request, Desk& desk) {
-  return programme_file(reminders_csv(reminders_view(desk, request).lines), "reminders.csv");
+  return csv_file(reminders_csv(reminders_view(desk, request).lines), "reminders.csv");
 }
 
 using ProgrammeAction = Response (*)(const Request&, Desk&);

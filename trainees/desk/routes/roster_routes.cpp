@@ -37,11 +37,7 @@ Response roster_refusal(const Request& request, Desk& desk, const std::string& f
 }
 
 Response roster_file(const Request& request, Desk& desk) {
-  Response out;
-  out.type = "text/csv; charset=utf-8";
-  out.body = roster_csv(roster_view(desk, request));
-  out.download = "roster.csv";
-  return out;
+  return csv_file(roster_csv(roster_view(desk, request)), "roster.csv");
 }
 
 Response add_one(const Request& request, Desk& desk) {

@@ -14,6 +14,7 @@
 #include "tests/app/window/pages/practice_bench.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
+#include "trainees/records/programmes.h"
 #include "trainees/records/standings.h"
 
 namespace trocar::practice_model_test {
@@ -207,6 +208,43 @@ TEST(PracticeModel, ThreePassesOnThreeBoardsOpenTheNextLevelAndChangeTheAdvice) 
   EXPECT_TRUE(model->progress(first.id, "L2").unlocked);
   EXPECT_EQ(model->next().exercise_id, model->exercises()[1].id) << "all exercises at a level before the next level";
   EXPECT_EQ(model->next().level, "L1");
+}
+
+TEST(PracticeModel, WhatIsDueInAProgrammeComesFirstUntilItIsPassed) {
+  const PracticeBench bench;
+  const auto model = bench.model();
+  const std::string second = model->exercises()[1].id;
+  {
+    Database db(bench.options().database);
+    const Author author{"", "Ida Adler"};
+    TraineeStore(db).ensure_trainee("T-1");
+    ProgrammeStore store(db);
+    store.save("Autumn",
+               "[[step]]\nexercise = \"" + second + "\"\nlevel = \"L2\"\n[[step]]\nexercise = \"" + second +
+                   "\"\nlevel = \"L1\"\n[[step]]\nexercise = \"not-here\"\nlevel = \"L1\"\n",
+               author);
+    store.assign("Autumn", "T-1", "", "2099-06-30", author);
+  }
+  EXPECT_TRUE(model->due().empty()) << "a guest has no programme";
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  ASSERT_EQ(model->due().size(), 2U) << "one step is of an exercise that this program does not have";
+  EXPECT_EQ(model->due()[0].step.level, "L2");
+  EXPECT_EQ(model->next().exercise_id, second) << "not the catalogue's first";
+  EXPECT_EQ(model->next().level, "L1") << "L2 is locked yet";
+  EXPECT_EQ(model->next().why, "Due by 2099-06-30.");
+  store(bench.options().database, model->exercises()[1], "L1", 1001, true);
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  ASSERT_EQ(model->due().size(), 1U);
+  EXPECT_EQ(model->next().exercise_id, model->exercises().front().id) << "what is left of the programme is locked";
+  model->sign_out();
+  EXPECT_TRUE(model->due().empty());
+  {
+    Database db(bench.options().database);
+    ProgrammeStore(db).assign("Autumn", "T-1", "", "2020-01-31", {"", "Ida Adler"});
+  }
+  ASSERT_EQ(model->sign_in("T-1"), "");
+  ASSERT_EQ(model->due().size(), 1U);
+  EXPECT_EQ(model->due_words(model->due()[0]), "Overdue since 2020-01-31.");
 }
 
 TEST(PracticeModel, ATeachersDecisionOpensTheNextLevelAndIsSaidWhenTheAttemptIsOpened) {

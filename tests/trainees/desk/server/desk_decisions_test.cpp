@@ -163,6 +163,11 @@ TEST_F(DeskDecisions, ACertificateWhoseAttemptsNoLongerCountIsInQuestionEverywhe
     EXPECT_NE(ask("GET", path).body.find(why), std::string::npos) << path;
   EXPECT_NE(ask("GET", "/cohort.csv").body.find("in question"), std::string::npos);
   const std::string uuid = AssessmentStore(database_).certificates_of("steady")[0].uuid;
+  const Response file = ask("GET", "/certificates.csv");
+  EXPECT_NE(file.body.find(uuid), std::string::npos);
+  EXPECT_NE(file.body.find("in question"), std::string::npos);
+  EXPECT_EQ(file.download, "certificates.csv");
+  EXPECT_NE(ask("GET", "/").body.find("href=\"/certificates.csv?\""), std::string::npos);
   const std::string sheet =
       certificate_file(desk_, uuid, {.format = ReportFormat::kHtml, .now_utc = "2026-06-01T10:00:00Z"});
   EXPECT_NE(sheet.find("IN QUESTION: " + why), std::string::npos) << sheet;
