@@ -1,7 +1,5 @@
 #include "app/device_bench/simulated_bench.h"
 
-#include "haptics/device/backends/make_backend.h"
-
 namespace trocar {
 
 std::unique_ptr<DataAcquisition> SimulatedBench::open(const BoardActs& acts) {
@@ -18,7 +16,7 @@ std::unique_ptr<DataAcquisition> SimulatedBench::open(const BoardActs& acts) {
       config.plant->channel[c].encoder_offset_counts += static_cast<double>(*acts.counters_at) - first.counts[c];
     }
   }
-  Backend backend = make_backend(kSimulatedBackend, {.simulated = config});
+  Backend backend = make_backend(backend_, {.simulated = config});
   if (acts.held) {
     const HandSense sense = backend.world->sense();
     backend.world->set_hand_intent(sense.X_BS, sense.jaw_opening_m);

@@ -278,7 +278,8 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
 Backend setup_backend(const AttemptSetup& setup) {
   return make_backend(setup.backend, {.simulated = simulated_device(setup),
                                       .sensor = sensor_of(setup).force,
-                                      .sensor_seed = seed_of(setup) ^ kSensorSeed});
+                                      .sensor_seed = seed_of(setup) ^ kSensorSeed,
+                                      .card = setup.card});
 }
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,

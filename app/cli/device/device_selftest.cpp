@@ -21,7 +21,8 @@ constexpr int kSelftestFault = 4;
 
 nlohmann::ordered_json selftest_json(const std::vector<BoardCheck>& checks, const SelfTestOptions& options,
                                      bool sound) {
-  nlohmann::ordered_json json{{"device", simulated_plant_words(options.seed)},
+  nlohmann::ordered_json json{{"backend", options.backend},
+                              {"device", simulated_plant_words(options.seed)},
                               {"rate_hz", options.rate_hz},
                               {"passed", sound},
                               {"checks", nlohmann::ordered_json::array()}};
@@ -39,7 +40,7 @@ int device_selftest(const SelfTestOptions& options, std::ostream& out, std::ostr
   config.seed = options.seed;
   config.rate_hz = options.rate_hz;
   for (const std::string& text : options.injections) config.faults.push_back(parse_injection(text));
-  SimulatedBench bench(config);
+  SimulatedBench bench(config, options.backend);
   const std::vector<BoardCheck> checks = check_board(bench);
   const auto failed = std::count_if(checks.begin(), checks.end(),
                                     [](const BoardCheck& c) { return c.outcome == BoardCheck::Outcome::kFailed; });
@@ -50,8 +51,8 @@ int device_selftest(const SelfTestOptions& options, std::ostream& out, std::ostr
     for (const BoardCheck& check : checks) table.add({check.name, outcome_name(check.outcome), check.detail});
     table.print(out);
   }
-  err << "trocar: " << checks.size() << " checks of the simulated device, seed " << options.seed << ", " << failed
-      << " failed\n";
+  err << "trocar: " << checks.size() << " checks of back-end " << options.backend << " on the simulated device, seed "
+      << options.seed << ", " << failed << " failed\n";
   return failed == 0 ? 0 : kSelftestFault;
 }
 
@@ -62,6 +63,9 @@ void add_device_selftest(CLI::App& parent, CommandAction& chosen) {
       add_command(parent, "selftest", "What the back-end owes the loop, check by check; 4 when one fails", chosen,
                   [given] { return device_selftest(*given, std::cout, std::cerr); });
   selftest->add_flag("--json", o.json, "As JSON");
+  selftest->add_option("--backend", o.backend, "What it is done on, with the simulated device behind it")
+      ->capture_default_str()
+      ->check(CLI::IsMember({kSimulatedBackend, kFakeHostmot2Backend}));
   selftest->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
   selftest->add_option("--rate", o.rate_hz, "SYNC rate, Hz")
       ->capture_default_str()

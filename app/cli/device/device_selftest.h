@@ -1,10 +1,12 @@
-// `trocar device selftest`: the conformance of a back-end behind the seam, here of the simulated one.
+// `trocar device selftest`: the conformance of a back-end behind the seam, with the simulated device behind it.
 #pragma once
 
 #include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+#include "haptics/device/backends/make_backend.h"
 
 namespace trocar {
 
@@ -13,6 +15,7 @@ struct SelfTestOptions {
   double rate_hz = 1000;
   std::vector<std::string> injections;  ///< as RunOptions::injections: to see a check fail
   bool json = false;
+  std::string backend = kSimulatedBackend;  ///< with the simulated device behind it
 };
 
 /// @return 0, or 4 when a check failed. @throws InputError.

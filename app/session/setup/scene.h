@@ -62,6 +62,7 @@ struct AttemptSetup {
   std::int64_t seed = 1;
   int board = 0;
   std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
+  std::string card = {};              ///< address, of the one that is a card on the network
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;

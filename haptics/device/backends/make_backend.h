@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "haptics/device/backend.h"
+#include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/simulated_daq.h"
 
 namespace trocar {
@@ -15,10 +16,15 @@ namespace trocar {
 inline constexpr const char* kSimulatedBackend = "simulated";
 inline constexpr const char* kPointerBackend = "pointer";  ///< no device: mouse, keys, pad, SpaceMouse
 
+/// A Mesa card on the network; and one that is not there, on the loopback, with the simulated device behind it: the
+/// same driver to the last byte.
+inline constexpr const char *kHostmot2Backend = "hostmot2", *kFakeHostmot2Backend = "hostmot2-fake";
+
 struct BackendOptions {
   SimulatedDaqConfig simulated = {};  ///< of "simulated"; its rate holds for every back-end
   ForceSensorConfig sensor = {};
-  std::uint64_t sensor_seed = 1;  ///< of a simulated sensor's noise and drift
+  std::uint64_t sensor_seed = 1;              ///< of a simulated sensor's noise and drift
+  std::string card = Hostmot2Options{}.card;  ///< address of the card of "hostmot2"
 };
 
 /// Names that make_backend() knows.

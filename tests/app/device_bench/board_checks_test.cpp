@@ -56,6 +56,13 @@ INSTANTIATE_TEST_SUITE_P(SeedsAndRates, SoundBoard,
                          ::testing::Values(std::pair{1, 1000.0}, std::pair{2, 2000.0}, std::pair{3, 4000.0},
                                            std::pair{40, 1000.0}, std::pair{500, 1000.0}));
 
+TEST(CardOnTheNetwork, PassesEveryCheck) {
+  SimulatedBench bench(SimulatedDaqConfig{}, kFakeHostmot2Backend);
+  const auto checks = check_board(bench);
+  EXPECT_EQ(checks.size(), 14u);
+  EXPECT_EQ(names(checks, Outcome::kPassed).size(), checks.size()) << all_words(checks);
+}
+
 struct Case {
   const char* check;
   InjectedFault fault;

@@ -1,0 +1,294 @@
+#include "haptics/device/hostmot2/hostmot2_daq.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/input_error.h"
+
+namespace trocar {
+namespace {
+
+using namespace hostmot2;
+using lbp16::Command;
+using lbp16::Size;
+using lbp16::Space;
+
+constexpr std::uint16_t kHostCounterAt = 0x10;  // of the timers' space: kept for the host
+constexpr int kTries = 3;
+constexpr int kMostStale = 8;  // answers to older questions that are dropped in one read
+constexpr std::uint16_t kLongAgo = 65535;
+
+std::string words_of(std::uint32_t low, std::uint32_t high) {
+  std::string out;
+  for (const std::uint32_t word : {low, high})
+    for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> 8 * i & 0x7F);
+  std::erase_if(out, [](char c) { return c < 0x20; });
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+void add_counter(lbp16::Datagram& to, std::uint32_t counter) {
+  to.add(Command{.write = true, .space = Space::kTimers, .size = Size::k16, .count = 2, .address = kHostCounterAt});
+  to.add(counter, 4);
+}
+
+void add_counter_read(lbp16::Datagram& to) {
+  to.add(Command{.space = Space::kTimers, .size = Size::k16, .count = 2, .address = kHostCounterAt});
+}
+
+/// Divider of a clock that comes nearest to a rate: clock / (divider + 2).
+std::uint32_t divider_of(double clock_hz, double wanted_hz) {
+  return static_cast<std::uint32_t>(std::clamp(std::round(clock_hz / wanted_hz) - 2, 0.0, 32767.0));
+}
+
+}  // namespace
+
+Hostmot2Daq::Hostmot2Daq(const Hostmot2Options& options) : options_(options), socket_(options.card) {
+  identify();
+  set_up();
+}
+
+Hostmot2Daq::~Hostmot2Daq() { send(off_); }
+
+bool Hostmot2Daq::send(const lbp16::Datagram& datagram) noexcept {
+  const bool sent = socket_.send(datagram);
+  if (sent) ++link_.sent;
+  return sent;
+}
+
+/// One register, before the loop begins.
+std::uint32_t Hostmot2Daq::ask(std::uint16_t address) {
+  lbp16::Datagram question, answer;
+  for (int n = 0; n < kTries; ++n) {
+    question.clear();
+    add_counter(question, ++counter_);
+    add_counter_read(question);
+    question.add(Command{.address = address});
+    send(question);
+    for (int k = 0; k < kMostStale && socket_.receive(answer, options_.setup_wait_s); ++k)
+      if (answer.size() == 8 && answer.value32(0) == counter_) return answer.value32(4);
+  }
+  throw EnvironmentError("card " + options_.card +
+                         ": no answer; is it powered, connected, and this computer's network card in its network (" +
+                         "a card as delivered is 192.168.1.121)?");
+}
+
+void Hostmot2Daq::identify() {
+  const std::string card = "card " + options_.card + ": ";
+  if (ask(kCookieAt) != kCookie || words_of(ask(kNameAt), ask(kNameAt + 4)) != kName)
+    throw EnvironmentError(card + "answers, but has no HostMot2 firmware");
+  const auto idrom = static_cast<std::uint16_t>(ask(kIdromOffsetAt));
+  std::array<std::uint32_t, kIdromWords> word{};
+  for (int i = 0; i < kIdromWords; ++i)
+    word[static_cast<std::size_t>(i)] = ask(static_cast<std::uint16_t>(idrom + 4 * i));
+  if (std::find(std::begin(kIdromTypes), std::end(kIdromTypes), word[kIdromType]) == std::end(kIdromTypes))
+    throw EnvironmentError(card + "describes itself in a way that is not known (IDROM type " +
+                           std::to_string(word[kIdromType]) + ")");
+  identity_.board = words_of(word[kBoardName], word[kBoardName + 1]);
+  identity_.ports = static_cast<int>(word[kIoPorts]);
+  identity_.port_width = static_cast<int>(word[kPortWidth]);
+  for (int i = 0; i < kMostModules; ++i) {
+    const auto at = static_cast<std::uint16_t>(idrom + word[kModulesOffset] + 12U * static_cast<std::uint32_t>(i));
+    const std::uint32_t first = ask(at), second = ask(at + 4);
+    if ((first & 0xFF) == 0) break;
+    Module m;
+    m.tag = static_cast<Tag>(first & 0xFF);
+    m.version = static_cast<int>(first >> 8 & 0xFF);
+    m.clock_hz = (first >> 16 & 0xFF) == 2 ? word[kClockHigh] : word[kClockLow];
+    m.instances = static_cast<int>(first >> 24);
+    m.base = static_cast<std::uint16_t>(second);
+    m.register_stride = static_cast<std::uint16_t>(word[second >> 24 & 0xF ? kRegisterStride1 : kRegisterStride0]);
+    m.instance_stride = static_cast<std::uint16_t>(word[second >> 28 ? kInstanceStride1 : kInstanceStride0]);
+    identity_.modules.push_back(m);
+  }
+  const int pins = std::min(static_cast<int>(word[kIoWidth]), kMostPins);
+  for (int i = 0; i < pins; ++i) {
+    const std::uint32_t pin =
+        ask(static_cast<std::uint16_t>(idrom + word[kPinsOffset] + 4U * static_cast<std::uint32_t>(i)));
+    identity_.pins.push_back(
+        {static_cast<Tag>(pin >> 8 & 0xFF), static_cast<int>(pin >> 16 & 0xFF), (pin & 0x80) != 0});
+  }
+  watchdog_ = module(Tag::kWatchdog, 1, "watchdog");
+  io_ = module(Tag::kIoPort, identity_.ports, "I/O port");
+  encoder_ = module(Tag::kEncoder, kChannels, "quadrature counter");
+  pwm_ = module(Tag::kPwm, kChannels, "analogue output");
+  if (identity_.port_width < 1 || identity_.port_width > 32)
+    throw EnvironmentError(card + "says that its ports are " + std::to_string(identity_.port_width) + " pins wide");
+  for (const Wiring::Input& input : options_.wiring.inputs)
+    if (input.pin < 0 || input.pin >= pins)
+      throw EnvironmentError(card + "has " + std::to_string(pins) + " pins, the wiring needs pin " +
+                             std::to_string(input.pin));
+}
+
+const Module& Hostmot2Daq::module(Tag tag, int instances, const char* words) const {
+  for (const Module& m : identity_.modules) {
+    if (m.tag != tag) continue;
+    if (m.instances < instances) break;
+    if (m.instance_stride == 4 && m.clock_hz > 0) return m;
+    throw EnvironmentError("card " + options_.card + ", " + identity_.board + ": its firmware lays out each " + words +
+                           " in a way that is not known (stride " + std::to_string(m.instance_stride) + ")");
+  }
+  throw EnvironmentError("card " + options_.card + ", " + identity_.board + ": its firmware has not " +
+                         std::to_string(instances) + " of " + words + "; load one that has");
+}
+
+/// Directions and sources of the pins: outputs of the analogue channels in use are theirs, all else stays an input.
+void Hostmot2Daq::add_pins(lbp16::Datagram& to) const {
+  for (int port = 0; port < identity_.ports; ++port) {
+    std::uint32_t outputs = 0;
+    for (int i = 0; i < identity_.port_width; ++i) {
+      const auto at = static_cast<std::size_t>(port * identity_.port_width + i);
+      if (at >= identity_.pins.size()) break;
+      const Pin& pin = identity_.pins[at];
+      if (pin.output && pin.tag == Tag::kPwm && pin.unit < kChannels) outputs |= 1U << i;
+    }
+    to.write32(io_.at(IoPortRegister::kOpenDrain, port), 0);
+    to.write32(io_.at(IoPortRegister::kInvert, port), 0);
+    to.write32(io_.at(IoPortRegister::kAlternate, port), outputs);
+    to.write32(io_.at(IoPortRegister::kDirection, port), outputs);
+  }
+}
+
+void Hostmot2Daq::set_up() {
+  off_.write32(pwm_.at(PwmRegister::kEnable), 0);
+  for (int i = 0; i < kChannels; ++i) off_.write32(pwm_.at(PwmRegister::kValue, i), 0);
+  restore_ = off_;
+  const double share = std::clamp(options_.pdm_hz / pwm_.clock_hz, 0.0, 1.0);
+  const std::uint32_t divider = divider_of(encoder_.clock_hz, options_.stamp_hz);
+  stamp_hz_ = encoder_.clock_hz / (divider + 2);
+  restore_.write32(pwm_.at(PwmRegister::kPdmRate), static_cast<std::uint32_t>(std::max(1.0, 65535 * share)));
+  restore_.write32(encoder_.at(EncoderRegister::kStampDivider), divider);
+  for (int i = 0; i < kChannels; ++i) {
+    restore_.write32(pwm_.at(PwmRegister::kMode, i), kPdmMode);
+    restore_.write32(encoder_.at(EncoderRegister::kControl, i), kFifteenClocks);
+  }
+  const double patience = std::clamp(options_.watchdog_s * watchdog_.clock_hz, 1.0, 2147483647.0);
+  restore_.write32(watchdog_.at(WatchdogRegister::kTimer), static_cast<std::uint32_t>(patience) - 1);
+  restore_.write32(watchdog_.at(WatchdogRegister::kStatus), 0);
+  restore_.write32(watchdog_.at(WatchdogRegister::kKick), kWatchdogKick);
+  add_pins(restore_);
+  lay_out_exchange();
+  if (!restore_.fits() || !question_.fits())
+    throw EnvironmentError("card " + options_.card + ": has more ports than fit a datagram");
+  send(restore_);
+  if (ask(watchdog_.at(WatchdogRegister::kTimer)) & kWatchdogOff || ask(pwm_.at(PwmRegister::kEnable)) != 0)
+    throw EnvironmentError("card " + options_.card + ", " + identity_.board +
+                           ": did not take its set-up: watchdog off, or outputs enabled");
+}
+
+void Hostmot2Daq::lay_out_exchange() {
+  lbp16::Datagram& q = question_;
+  const auto read32 = [&](std::uint16_t address, int count) {
+    q.add(Command{.count = static_cast<std::uint8_t>(count), .address = address});
+    answer_bytes_ += 4 * static_cast<std::size_t>(count);
+  };
+  add_counter(q, 0);
+  counter_at_ = q.size() - 4;
+  q.add(Command{.write = true, .count = kChannels, .address = pwm_.at(PwmRegister::kValue)});
+  codes_at_ = q.size();
+  for (int i = 0; i < kChannels; ++i) q.add(0, 4);
+  enable_at_ = q.write32(pwm_.at(PwmRegister::kEnable), 0);
+  kick_at_ = q.write32(watchdog_.at(WatchdogRegister::kKick), 0);
+  add_counter_read(q);
+  answer_bytes_ = 4;
+  read32(encoder_.at(EncoderRegister::kCount), kChannels);
+  read32(encoder_.at(EncoderRegister::kStampNow), 1);
+  read32(encoder_.at(EncoderRegister::kControl), kChannels);
+  read32(watchdog_.at(WatchdogRegister::kStatus), 1);
+  read32(watchdog_.at(WatchdogRegister::kTimer), 1);
+  read32(io_.at(IoPortRegister::kData), identity_.ports);
+}
+
+DaqCapabilities Hostmot2Daq::capabilities() const noexcept { return {options_.name, options_.rate_hz, kPdmBits + 1}; }
+
+bool Hostmot2Daq::exchange() noexcept {
+  question_.set32(counter_at_, ++counter_);
+  for (std::size_t i = 0; i < kChannels; ++i) question_.set32(codes_at_ + 4 * i, pdm_of(written_.codes[i]));
+  question_.set32(enable_at_, armed_ ? (1U << kChannels) - 1 : 0);
+  question_.set32(kick_at_, fed_ || !armed_ ? kWatchdogKick : 0);
+  fed_ = false;
+  if (!send(question_)) return false;
+  for (int n = 0; n < kMostStale; ++n) {
+    if (!socket_.receive(answer_, options_.wait_share / options_.rate_hz)) return false;
+    if (answer_.size() != answer_bytes_)
+      ++link_.malformed;
+    else if (answer_.value32(0) != counter_)
+      ++link_.stale;
+    else
+      return true;
+  }
+  return false;
+}
+
+DaqSample Hostmot2Daq::read() noexcept {
+  if (exchange()) {
+    lost_in_a_row_ = 0;
+    return last_ = sample_of_answer();
+  }
+  ++link_.lost;
+  last_.elapsed_periods = ++lost_in_a_row_ <= options_.lost_in_a_row && read_once_ ? 1 : 0;
+  return last_;
+}
+
+DaqSample Hostmot2Daq::sample_of_answer() noexcept {
+  DaqSample out = last_;
+  out.digital_in = 0;
+  out.valid = (1U << kChannels) - 1;
+  std::size_t at = 4;
+  const auto stamp = static_cast<std::uint16_t>(answer_.value32(at + 4 * kChannels));
+  const auto passed = static_cast<std::uint16_t>(stamp - stamp_);
+  const double to_us = 1e6 / stamp_hz_, passed_us = passed * to_us;
+  out.elapsed_periods =
+      read_once_ ? static_cast<std::uint32_t>(std::max(0.0, std::round(passed_us * 1e-6 * options_.rate_hz))) : 1;
+  for (std::size_t i = 0; i < kChannels; ++i, at += 4) {
+    const std::uint32_t word = answer_.value32(at);
+    const auto raw = static_cast<std::uint16_t>(word);
+    const auto step = static_cast<std::int16_t>(static_cast<std::uint16_t>(raw - raw_[i]));
+    const auto edge = static_cast<std::uint16_t>(stamp - static_cast<std::uint16_t>(word >> 16));
+    const double age_us = step != 0    ? std::max(1.0, std::ceil(edge * to_us))
+                          : read_once_ ? out.edge_age_us[i] + passed_us
+                                       : kLongAgo;
+    out.counts[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(out.counts[i]) +
+                                              static_cast<std::uint32_t>(read_once_ ? step : std::int16_t{0}));
+    out.edge_age_us[i] = static_cast<std::uint16_t>(std::min<double>(age_us, kLongAgo));
+    raw_[i] = raw;
+  }
+  stamp_ = stamp;
+  at += 4;
+  for (std::size_t i = 0; i < kChannels; ++i, at += 4) {
+    if (!(answer_.value32(at) & kQuadratureError)) continue;
+    out.valid = static_cast<std::uint8_t>(out.valid & ~(1U << i));
+    lbp16::Datagram clear;
+    clear.write32(encoder_.at(EncoderRegister::kControl, static_cast<int>(i)), kFifteenClocks | kQuadratureError);
+    send(clear);
+  }
+  // A card that lost its power has its watchdog off, as a new one has, and its pins are inputs likewise.
+  const bool bitten = (answer_.value32(at) & kBitten) || (answer_.value32(at + 4) & kWatchdogOff);
+  at += 8;
+  if (bitten && !bitten_) ++link_.bites;
+  bitten_ = bitten;
+  if (bitten && armed_) out.digital_in |= kWatchdogFired;
+  if (bitten && !armed_) arm(false);  // nothing hung on it: set up again
+  for (const Wiring::Input& input : options_.wiring.inputs) {
+    const auto port = static_cast<std::size_t>(input.pin / identity_.port_width);
+    const bool high = answer_.value32(at + 4 * port) >> input.pin % identity_.port_width & 1;
+    if (high != input.active_low) out.digital_in |= input.bits;
+  }
+  read_once_ = true;
+  return out;
+}
+
+void Hostmot2Daq::write(const DacFrame& frame) noexcept {
+  written_ = frame;
+  fed_ = true;
+}
+
+void Hostmot2Daq::arm(bool enabled) noexcept {
+  const bool ends = armed_ && !enabled;
+  armed_ = enabled;
+  if (enabled || !(ends || bitten_)) return;
+  written_ = {};
+  send(bitten_ ? restore_ : off_);
+}
+
+}  // namespace trocar

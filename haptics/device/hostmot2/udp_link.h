@@ -1,0 +1,40 @@
+// A UDP socket with one peer, for a card on the network or its fake.
+//
+// Thread: one at a time. send() and receive() neither allocate, lock nor throw.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "haptics/device/hostmot2/lbp16.h"
+
+namespace trocar {
+
+class UdpLink {
+ public:
+  /// @param address "192.168.1.121" or "192.168.1.121:27181". @throws InputError: no such address; EnvironmentError: no
+  /// socket, no way to it.
+  explicit UdpLink(const std::string& address);
+  /// Of a peer: listens on the loopback, on a free port, and answers whoever sent last.
+  static UdpLink on_loopback();
+  ~UdpLink();
+  UdpLink(UdpLink&& other) noexcept;
+  UdpLink(const UdpLink&) = delete;
+  UdpLink& operator=(const UdpLink&) = delete;
+  UdpLink& operator=(UdpLink&&) = delete;
+
+  std::uint16_t port() const noexcept;  ///< own
+  bool send(const lbp16::Datagram& datagram) noexcept;
+  /// The next datagram that fits. @param wait_s 0: what is there already. @return false: none came, or the peer is
+  /// gone.
+  bool receive(lbp16::Datagram& into, double wait_s) noexcept;
+
+ private:
+  UdpLink() = default;
+  int socket_ = -1;
+  bool connected_ = true;
+  std::uint32_t peer_address_ = 0;  ///< of the loopback's, network order
+  std::uint16_t peer_port_ = 0;
+};
+
+}  // namespace trocar
