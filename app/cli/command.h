@@ -31,6 +31,9 @@ CLI::Validator file_name();
 CLI::Validator seed_range();
 
 /// How an organ is named, for the help of --organ.
+constexpr const char* kCardForms =
+    "Of --backend hostmot2: address of the card (default: 192.168.1.121); of mc4000: the boards' folders in "
+    "/sys/bus/pci/devices or their /dev/uio, with a comma";
 constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
 
@@ -57,6 +60,7 @@ AddCommand add_export;
 
 AddCommand add_device_forward;
 AddCommand add_device_calibrate;
+AddCommand add_device_card;
 AddCommand add_device_selftest;
 AddCommand add_device_monitor;
 AddCommand add_device_plant;

@@ -301,6 +301,9 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   auto hand =
       hooks.hand ? hooks.hand() : make_hand(scene.setup.hand, seed_of(scene.setup), assets.hands, scene.setup.attempt);
   const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing, hooks.keyframes);
+  if (!attempt->backend.world && !hooks.hand)
+    throw InputError("--backend " + scene.setup.backend +
+                     ": a person holds that arm, no script moves it: trocar practice");
   if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
     throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
   }

@@ -17,6 +17,7 @@
 #include "app/window/glfw/window.h"
 #include "app/window/practice/practice_loop.h"
 #include "app/window/practice_pictures.h"
+#include "haptics/device/backends/make_backend.h"
 #include "trainees/records/demo_record.h"
 #include "trainees/records/replica_facts.h"
 
@@ -153,6 +154,14 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
                    "What steers: auto (the first that moves), mouse, keyboard, gamepad, spacemouse or device")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "mouse", "keyboard", "gamepad", "spacemouse", "device"}));
+  practice
+      ->add_option(
+          "--backend", o.model.backend,
+          "Device of --input device: simulated, hostmot2 (a card on the network), mc4000 (the thesis' boards), or "
+          "hostmot2-fake, mc4000-emulated")
+      ->check(CLI::IsMember(
+          {kSimulatedBackend, kHostmot2Backend, kFakeHostmot2Backend, kMc4000Backend, kEmulatedMc4000Backend}));
+  practice->add_option("--card", o.model.card, kCardForms);
   practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
   add_tissue_option(*practice, o.model.tissue);
   practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")

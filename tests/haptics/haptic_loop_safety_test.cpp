@@ -8,6 +8,8 @@
 #include "haptics/control/gravity.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/device/hostmot2/fake_hostmot2.h"
+#include "haptics/device/mc4000/emulated_mc4000.h"
+#include "haptics/device/mc4000/mc4000_daq.h"
 #include "tests/haptics/loop_rig.h"
 
 namespace trocar::haptic_loop_safety_test {
@@ -98,6 +100,26 @@ RigBoard card_board(SimulatedDaq& device, const InjectedFault& fault) {
   return {.daq = std::move(card), .world = fake, .hold = [fake] { return fake->hold(); }};
 }
 
+/// The driver of the thesis' boards, and boards that are not there.
+RigBoard boards_board(SimulatedDaq& device) {
+  struct Boards final : DataAcquisition {
+    explicit Boards(SimulatedDaq& d)
+        : pair(d, 1000, {}, options().inputs), driver(pair.board(0), pair.board(1), options()) {}
+    static Mc4000Options options() {
+      Mc4000Options out;
+      out.inputs.push_back({kHandFault, 1, 31, false});
+      return out;
+    }
+    DaqCapabilities capabilities() const noexcept override { return driver.capabilities(); }
+    DaqSample read() noexcept override { return driver.read(); }
+    void write(const DacFrame& frame) noexcept override { driver.write(frame); }
+    void arm(bool enabled) noexcept override { driver.arm(enabled); }
+    EmulatedMc4000 pair;
+    Mc4000Daq driver;
+  };
+  return {.daq = std::make_unique<Boards>(device), .world = &device};
+}
+
 class Stops : public ::testing::TestWithParam<std::tuple<const char*, Stop>> {};
 
 TEST_P(Stops, TorqueGoesInTimeAndTheFirstCauseStays) {
@@ -108,6 +130,10 @@ TEST_P(Stops, TorqueGoesInTimeAndTheFirstCauseStays) {
     if (stop.cause == FaultCode::kDacMismatch) GTEST_SKIP() << "this card's outputs cannot be read back";
     device = FakeHostmot2::device_config(device);
     make_board = [&fault = stop.fault](SimulatedDaq& d) { return card_board(d, fault); };
+  }
+  if (backend == std::string(kEmulatedMc4000Backend)) {
+    device = EmulatedMc4000::device_config(device);
+    make_board = boards_board;
   }
   MovingRig rig(device, {}, make_board);
   while (rig.daq.time_s() < kAt - 1.5e-3) {
@@ -140,7 +166,7 @@ using K = InjectedFaultKind;
 INSTANTIATE_TEST_SUITE_P(
     Injected, Stops,
     ::testing::Combine(
-        ::testing::Values(kSimulatedBackend, kFakeHostmot2Backend),
+        ::testing::Values(kSimulatedBackend, kFakeHostmot2Backend, kEmulatedMc4000Backend),
         ::testing::Values(Stop{"EncoderJump", {K::kEncoderJump, kAt, 0, 2, 500}, FaultCode::kEncoderJump, 2, 2},
                           Stop{"DeadChannel", {K::kChannelInvalid, kAt, 0, 4, 0}, FaultCode::kChannelInvalid, 4, 2},
                           Stop{"SensorSilence", {K::kSensorSilence, kAt, 0, 0, 0}, FaultCode::kSensorSilent, -1, 2},
@@ -155,7 +181,10 @@ INSTANTIATE_TEST_SUITE_P(
                           Stop{"DriveHot", {K::kOverTemperature, kAt, 0, 0, 0}, FaultCode::kDriveHot, 0, 22})),
     [](const auto& stop) {
       const std::string backend = std::get<0>(stop.param);
-      return (backend == kSimulatedBackend ? "Board" : "Card") + std::string(std::get<1>(stop.param).name);
+      return (backend == kSimulatedBackend      ? "Simulated"
+              : backend == kFakeHostmot2Backend ? "Hostmot2"
+                                                : "Mc4000") +
+             std::string(std::get<1>(stop.param).name);
     });
 
 TEST(SoftStop, FadesTheWeightAndDropsTheContact) {

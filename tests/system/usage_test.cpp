@@ -10,12 +10,12 @@ using Usage = SystemTest;
 
 const std::map<std::string, Translator>& other_commands_and_flags() {
   static const std::map<std::string, Translator> table{
-      {"run",
-       {"--hand", "--level", "--seed", "--trainee", "--db", "--organ", "--board", "--record", "--frames", "--video",
-        "--fps", "--rate", "--contact", "--passivity", "--clamp", "--calibration", "--device", "--inject", "--json"}},
+      {"run", {"--hand",    "--level",     "--seed",  "--trainee",     "--db",      "--organ",  "--board",
+               "--record",  "--frames",    "--video", "--fps",         "--backend", "--card",   "--rate",
+               "--contact", "--passivity", "--clamp", "--calibration", "--device",  "--inject", "--json"}},
       {"practice",
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed",
-        "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope"}},
+        "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope", "--backend", "--card"}},
       {"test", {"--filter", "--junit", "--jobs", "--list"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay",
@@ -32,7 +32,8 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"exercises", {"--json", "--explain"}},
       {"check", {"--organ"}},
       {"device", {"eval", "ik", "fk", "calibrate", "identify", "selftest", "monitor"}},
-      {"device selftest", {"--seed", "--rate", "--inject", "--json"}},
+      {"device selftest", {"--backend", "--seed", "--rate", "--inject", "--json"}},
+      {"device card", {"--json"}},
       {"device monitor",
        {"--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject", "--json"}},
       {"device fk", {"--deg", "--csv", "--out", "--json"}},

@@ -297,7 +297,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   for (const std::string& name : backend_names())
     if (backend_capabilities(name, 1000).motors) backends += (backends.empty() ? "" : ", ") + name;
   run->add_option("--backend", o.backend, "Device that it runs on: " + backends)->capture_default_str();
-  run->add_option("--card", o.card, "Address of the card of --backend hostmot2")->capture_default_str();
+  run->add_option("--card", o.card, kCardForms);
   run->add_option("--rate", o.rate_hz, "Loop rate, Hz")
       ->capture_default_str()
       ->check(CLI::IsMember({1000, 2000, 4000}));

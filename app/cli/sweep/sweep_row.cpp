@@ -19,7 +19,7 @@ constexpr double kScoreTolerance = 1e-9;
 constexpr std::array kStatuses{AttemptStatus::kCompleted, AttemptStatus::kTimeout, AttemptStatus::kAborted,
                                AttemptStatus::kFault, AttemptStatus::kVoid};
 
-OrderedJson number_or_null(const std::optional<double>& value) {
+OrderedJson cell_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? OrderedJson(*value) : OrderedJson(nullptr);
 }
 
@@ -84,7 +84,7 @@ std::string row_line(const SweepRow& row) {
   OrderedJson caps = OrderedJson::array(), subscores = OrderedJson::object(), metrics = subscores;
   for (const Cap& cap : row.grade.caps) caps.push_back(cap_json(cap));
   for (const Subscore& subscore : row.grade.subscores) subscores[subscore.name] = subscore.value;
-  for (const Metric& metric : row.grade.metrics) metrics[metric.name] = number_or_null(metric.value);
+  for (const Metric& metric : row.grade.metrics) metrics[metric.name] = cell_or_null(metric.value);
   return OrderedJson{{"exercise", row.key.exercise},
                      {"level", row.key.level},
                      {"arm", row.key.arm},
@@ -98,9 +98,9 @@ std::string row_line(const SweepRow& row) {
                      {"rubric_sha256", row.rubric_sha256},
                      {"hand_sha256", row.hand_sha256},
                      {"program", row.program},
-                     {"skill", number_or_null(row.skill)},
+                     {"skill", cell_or_null(row.skill)},
                      {"status", status_name(row.grade.status)},
-                     {"score", number_or_null(row.grade.score)},
+                     {"score", cell_or_null(row.grade.score)},
                      {"passed", row.grade.passed},
                      {"grade", row.grade.grade},
                      {"fault", row.fault},

@@ -230,6 +230,7 @@ const HandIntent& AttemptRunner::target() { return state_->link.target.read(); }
 
 bool AttemptRunner::pause(bool paused) {
   if (paused && state_->scene->level.name == kExamLevel) return false;
+  if (paused && !backend_abilities(state_->scene->setup.backend).pause) return false;  // an arm cannot hang in the air
   state_->pause.set(paused);
   return true;
 }

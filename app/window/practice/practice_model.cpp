@@ -327,9 +327,13 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   out.setup.organ = organ;
   out.setup.tissue = tissue_of(out.setup.exercise);
   out.setup.hand = hand();
-  if (at_pointer()) out.setup.backend = kPointerBackend;
+  if (at_pointer())
+    out.setup.backend = kPointerBackend;
+  else if (!options.backend.empty())
+    out.setup.backend = options.backend;
+  out.setup.card = options.card;
   out.setup.realtime = true;
-  out.setup.pace = kSimulatedLivePace;
+  if (backend_abilities(out.setup.backend).pace) out.setup.pace = kSimulatedLivePace;
   out.trainee = scripted() ? kDemonstration : trainee;
   out.session = session;
   out.database = options.database;

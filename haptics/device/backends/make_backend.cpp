@@ -1,6 +1,9 @@
 #include "haptics/device/backends/make_backend.h"
 
 #include "haptics/device/hostmot2/fake_hostmot2.h"
+#include "haptics/device/mc4000/emulated_mc4000.h"
+#include "haptics/device/mc4000/mc4000_daq.h"
+#include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/device/pointer_daq.h"
 #include "haptics/device/replay_daq.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
@@ -34,7 +37,7 @@ Backend pointer_backend(const BackendOptions& options) {
 
 Hostmot2Options hostmot2_options(const BackendOptions& options) {
   Hostmot2Options out;
-  out.card = options.card;
+  if (!options.card.empty()) out.card = options.card;
   out.rate_hz = options.simulated.rate_hz;
   out.watchdog_s = options.simulated.watchdog_s;
   return out;
@@ -81,11 +84,70 @@ Backend fake_hostmot2_backend(const BackendOptions& options) {
           .world = world};
 }
 
+Mc4000Options mc4000_options(const BackendOptions& options) {
+  Mc4000Options out;
+  out.rate_hz = options.simulated.rate_hz;
+  out.watchdog_s = options.simulated.watchdog_s;
+  return out;
+}
+
+/// What boards are made of, and their driver, for as long as the driver is there.
+template <typename Boards>
+class DaqWithBoards final : public DataAcquisition {
+ public:
+  DaqWithBoards(std::unique_ptr<Boards> boards, RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options)
+      : boards_(std::move(boards)), driver_(board0, board1, options) {}
+  DaqCapabilities capabilities() const noexcept override { return driver_.capabilities(); }
+  DaqSample read() noexcept override { return driver_.read(); }
+  void write(const DacFrame& frame) noexcept override { driver_.write(frame); }
+  void arm(bool enabled) noexcept override { driver_.arm(enabled); }
+
+ private:
+  std::unique_ptr<Boards> boards_;
+  Mc4000Daq driver_;
+};
+
+Backend mc4000_backend(const BackendOptions& options) {
+  struct Boards {
+    PciBus first, second;
+  };
+  const std::size_t comma = options.card.find(',');
+  if (comma == std::string::npos)
+    throw InputError(
+        "--card " + options.card +
+        ": two boards are expected, with a comma: /sys/bus/pci/devices/0000:03:00.0,/sys/bus/pci/devices/0000:03:01.0");
+  const double rate_hz = options.simulated.rate_hz;
+  auto boards = std::unique_ptr<Boards>(
+      new Boards{PciBus(options.card.substr(0, comma), rate_hz), PciBus(options.card.substr(comma + 1), rate_hz)});
+  Boards& b = *boards;
+  return {.daq =
+              std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.first, b.second, mc4000_options(options))};
+}
+
+Backend emulated_mc4000_backend(const BackendOptions& options) {
+  struct Boards {
+    Boards(const SimulatedDaqConfig& config, const Mc4000Options& driver)
+        : device(EmulatedMc4000::device_config(config)), pair(device, config.rate_hz, driver.map, driver.inputs) {}
+    SimulatedDaq device;
+    EmulatedMc4000 pair;
+  };
+  Mc4000Options own = mc4000_options(options);
+  own.name = kEmulatedMc4000Backend;
+  own.inputs.push_back({kHandFault, 1, 31, false});  // that a real hand does not have
+  auto boards = std::make_unique<Boards>(options.simulated, own);
+  Boards& b = *boards;
+  return {.daq = std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.pair.board(0), b.pair.board(1), own),
+          .sensor = std::make_unique<SimulatedForceSensor>(options.sensor, options.sensor_seed),
+          .world = &b.device};
+}
+
 constexpr BackendKind kBackends[] = {
     {kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend},
     {kPointerBackend, 16, false, {.pause = true, .pace = true}, pointer_backend},
     {kHostmot2Backend, hostmot2::kPdmBits + 1, true, {}, hostmot2_backend},
-    {kFakeHostmot2Backend, hostmot2::kPdmBits + 1, true, {.pause = true, .pace = true}, fake_hostmot2_backend}};
+    {kFakeHostmot2Backend, hostmot2::kPdmBits + 1, true, {.pause = true, .pace = true}, fake_hostmot2_backend},
+    {kMc4000Backend, Mc4000Map{}.dac_bits, true, {}, mc4000_backend},
+    {kEmulatedMc4000Backend, Mc4000Map{}.dac_bits, true, {.pause = true, .pace = true}, emulated_mc4000_backend}};
 
 const BackendKind& backend_kind(const std::string& name) {
   std::string known;
@@ -108,6 +170,8 @@ DaqCapabilities backend_capabilities(const std::string& name, double rate_hz) {
   const BackendKind& kind = backend_kind(name);
   return {kind.name, rate_hz, kind.dac_bits, kind.motors};
 }
+
+BackendAbilities backend_abilities(const std::string& name) { return backend_kind(name).can; }
 
 Backend make_backend(const std::string& name, const BackendOptions& options) {
   const BackendKind& kind = backend_kind(name);

@@ -20,17 +20,24 @@ inline constexpr const char* kPointerBackend = "pointer";  ///< no device: mouse
 /// same driver to the last byte.
 inline constexpr const char *kHostmot2Backend = "hostmot2", *kFakeHostmot2Backend = "hostmot2-fake";
 
+/// The two boards of the thesis by their registers; and two that are not there, likewise.
+inline constexpr const char *kMc4000Backend = "mc4000", *kEmulatedMc4000Backend = "mc4000-emulated";
+
 struct BackendOptions {
   SimulatedDaqConfig simulated = {};  ///< of "simulated"; its rate holds for every back-end
   ForceSensorConfig sensor = {};
-  std::uint64_t sensor_seed = 1;              ///< of a simulated sensor's noise and drift
-  std::string card = Hostmot2Options{}.card;  ///< address of the card of "hostmot2"
+  std::uint64_t sensor_seed = 1;  ///< of a simulated sensor's noise and drift
+  /// Of "hostmot2": the card's address. Of "mc4000": folders of the two boards in PCI's sysfs, or their /dev/uio, with
+  /// a comma. Empty: the address as delivered.
+  std::string card = {};
 };
 
 /// Names that make_backend() knows.
 std::vector<std::string> backend_names();
 /// What build_scene() needs to know before the back-end is there. @throws InputError listing the names.
 DaqCapabilities backend_capabilities(const std::string& name, double rate_hz);
+/// @throws InputError listing the names.
+BackendAbilities backend_abilities(const std::string& name);
 /// @throws InputError listing the names; std::invalid_argument when an option is out of range.
 Backend make_backend(const std::string& name, const BackendOptions& options);
 /// Plays a recording back: no sensor, no world. @param samples at least one. @param recorded on what it was recorded.

@@ -10,31 +10,8 @@ namespace {
 
 using namespace hostmot2;
 using lbp16::Command;
-using lbp16::Size;
-using lbp16::Space;
 
-constexpr std::uint16_t kHostCounterAt = 0x10;  // of the timers' space: kept for the host
-constexpr int kTries = 3;
-constexpr int kMostStale = 8;  // answers to older questions that are dropped in one read
 constexpr std::uint16_t kLongAgo = 65535;
-
-std::string words_of(std::uint32_t low, std::uint32_t high) {
-  std::string out;
-  for (const std::uint32_t word : {low, high})
-    for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> 8 * i & 0x7F);
-  std::erase_if(out, [](char c) { return c < 0x20; });
-  while (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
-}
-
-void add_counter(lbp16::Datagram& to, std::uint32_t counter) {
-  to.add(Command{.write = true, .space = Space::kTimers, .size = Size::k16, .count = 2, .address = kHostCounterAt});
-  to.add(counter, 4);
-}
-
-void add_counter_read(lbp16::Datagram& to) {
-  to.add(Command{.space = Space::kTimers, .size = Size::k16, .count = 2, .address = kHostCounterAt});
-}
 
 /// Divider of a clock that comes nearest to a rate: clock / (divider + 2).
 std::uint32_t divider_of(double clock_hz, double wanted_hz) {
@@ -43,81 +20,25 @@ std::uint32_t divider_of(double clock_hz, double wanted_hz) {
 
 }  // namespace
 
-Hostmot2Daq::Hostmot2Daq(const Hostmot2Options& options) : options_(options), socket_(options.card) {
-  identify();
+Hostmot2Daq::Hostmot2Daq(const Hostmot2Options& options)
+    : options_(options), card_(options.card, options.setup_wait_s), identity_(card_.identify()) {
+  watchdog_ = module(Tag::kWatchdog, 1, "watchdog");
+  io_ = module(Tag::kIoPort, identity_.ports, "I/O port");
+  encoder_ = module(Tag::kEncoder, kChannels, "quadrature counter");
+  pwm_ = module(Tag::kPwm, kChannels, "analogue output");
+  for (const Wiring::Input& input : options_.wiring.inputs)
+    if (input.pin < 0 || static_cast<std::size_t>(input.pin) >= identity_.pins.size())
+      throw EnvironmentError(card_.name() + " has " + std::to_string(identity_.pins.size()) +
+                             " pins, the wiring needs pin " + std::to_string(input.pin));
   set_up();
 }
 
 Hostmot2Daq::~Hostmot2Daq() { send(off_); }
 
 bool Hostmot2Daq::send(const lbp16::Datagram& datagram) noexcept {
-  const bool sent = socket_.send(datagram);
+  const bool sent = card_.link().send(datagram);
   if (sent) ++link_.sent;
   return sent;
-}
-
-/// One register, before the loop begins.
-std::uint32_t Hostmot2Daq::ask(std::uint16_t address) {
-  lbp16::Datagram question, answer;
-  for (int n = 0; n < kTries; ++n) {
-    question.clear();
-    add_counter(question, ++counter_);
-    add_counter_read(question);
-    question.add(Command{.address = address});
-    send(question);
-    for (int k = 0; k < kMostStale && socket_.receive(answer, options_.setup_wait_s); ++k)
-      if (answer.size() == 8 && answer.value32(0) == counter_) return answer.value32(4);
-  }
-  throw EnvironmentError("card " + options_.card +
-                         ": no answer; is it powered, connected, and this computer's network card in its network (" +
-                         "a card as delivered is 192.168.1.121)?");
-}
-
-void Hostmot2Daq::identify() {
-  const std::string card = "card " + options_.card + ": ";
-  if (ask(kCookieAt) != kCookie || words_of(ask(kNameAt), ask(kNameAt + 4)) != kName)
-    throw EnvironmentError(card + "answers, but has no HostMot2 firmware");
-  const auto idrom = static_cast<std::uint16_t>(ask(kIdromOffsetAt));
-  std::array<std::uint32_t, kIdromWords> word{};
-  for (int i = 0; i < kIdromWords; ++i)
-    word[static_cast<std::size_t>(i)] = ask(static_cast<std::uint16_t>(idrom + 4 * i));
-  if (std::find(std::begin(kIdromTypes), std::end(kIdromTypes), word[kIdromType]) == std::end(kIdromTypes))
-    throw EnvironmentError(card + "describes itself in a way that is not known (IDROM type " +
-                           std::to_string(word[kIdromType]) + ")");
-  identity_.board = words_of(word[kBoardName], word[kBoardName + 1]);
-  identity_.ports = static_cast<int>(word[kIoPorts]);
-  identity_.port_width = static_cast<int>(word[kPortWidth]);
-  for (int i = 0; i < kMostModules; ++i) {
-    const auto at = static_cast<std::uint16_t>(idrom + word[kModulesOffset] + 12U * static_cast<std::uint32_t>(i));
-    const std::uint32_t first = ask(at), second = ask(at + 4);
-    if ((first & 0xFF) == 0) break;
-    Module m;
-    m.tag = static_cast<Tag>(first & 0xFF);
-    m.version = static_cast<int>(first >> 8 & 0xFF);
-    m.clock_hz = (first >> 16 & 0xFF) == 2 ? word[kClockHigh] : word[kClockLow];
-    m.instances = static_cast<int>(first >> 24);
-    m.base = static_cast<std::uint16_t>(second);
-    m.register_stride = static_cast<std::uint16_t>(word[second >> 24 & 0xF ? kRegisterStride1 : kRegisterStride0]);
-    m.instance_stride = static_cast<std::uint16_t>(word[second >> 28 ? kInstanceStride1 : kInstanceStride0]);
-    identity_.modules.push_back(m);
-  }
-  const int pins = std::min(static_cast<int>(word[kIoWidth]), kMostPins);
-  for (int i = 0; i < pins; ++i) {
-    const std::uint32_t pin =
-        ask(static_cast<std::uint16_t>(idrom + word[kPinsOffset] + 4U * static_cast<std::uint32_t>(i)));
-    identity_.pins.push_back(
-        {static_cast<Tag>(pin >> 8 & 0xFF), static_cast<int>(pin >> 16 & 0xFF), (pin & 0x80) != 0});
-  }
-  watchdog_ = module(Tag::kWatchdog, 1, "watchdog");
-  io_ = module(Tag::kIoPort, identity_.ports, "I/O port");
-  encoder_ = module(Tag::kEncoder, kChannels, "quadrature counter");
-  pwm_ = module(Tag::kPwm, kChannels, "analogue output");
-  if (identity_.port_width < 1 || identity_.port_width > 32)
-    throw EnvironmentError(card + "says that its ports are " + std::to_string(identity_.port_width) + " pins wide");
-  for (const Wiring::Input& input : options_.wiring.inputs)
-    if (input.pin < 0 || input.pin >= pins)
-      throw EnvironmentError(card + "has " + std::to_string(pins) + " pins, the wiring needs pin " +
-                             std::to_string(input.pin));
 }
 
 const Module& Hostmot2Daq::module(Tag tag, int instances, const char* words) const {
@@ -125,11 +46,11 @@ const Module& Hostmot2Daq::module(Tag tag, int instances, const char* words) con
     if (m.tag != tag) continue;
     if (m.instances < instances) break;
     if (m.instance_stride == 4 && m.clock_hz > 0) return m;
-    throw EnvironmentError("card " + options_.card + ", " + identity_.board + ": its firmware lays out each " + words +
+    throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware lays out each " + words +
                            " in a way that is not known (stride " + std::to_string(m.instance_stride) + ")");
   }
-  throw EnvironmentError("card " + options_.card + ", " + identity_.board + ": its firmware has not " +
-                         std::to_string(instances) + " of " + words + "; load one that has");
+  throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware has not " + std::to_string(instances) +
+                         " of " + words + "; load one that has");
 }
 
 /// Directions and sources of the pins: outputs of the analogue channels in use are theirs, all else stays an input.
@@ -169,10 +90,10 @@ void Hostmot2Daq::set_up() {
   add_pins(restore_);
   lay_out_exchange();
   if (!restore_.fits() || !question_.fits())
-    throw EnvironmentError("card " + options_.card + ": has more ports than fit a datagram");
+    throw EnvironmentError(card_.name() + ": has more ports than fit a datagram");
   send(restore_);
-  if (ask(watchdog_.at(WatchdogRegister::kTimer)) & kWatchdogOff || ask(pwm_.at(PwmRegister::kEnable)) != 0)
-    throw EnvironmentError("card " + options_.card + ", " + identity_.board +
+  if (card_.ask(watchdog_.at(WatchdogRegister::kTimer)) & kWatchdogOff || card_.ask(pwm_.at(PwmRegister::kEnable)) != 0)
+    throw EnvironmentError(card_.name() + ", " + identity_.board +
                            ": did not take its set-up: watchdog off, or outputs enabled");
 }
 
@@ -199,20 +120,26 @@ void Hostmot2Daq::lay_out_exchange() {
   read32(io_.at(IoPortRegister::kData), identity_.ports);
 }
 
+Hostmot2Link Hostmot2Daq::link() const {
+  Hostmot2Link out = link_;
+  out.sent += card_.asked();
+  return out;
+}
+
 DaqCapabilities Hostmot2Daq::capabilities() const noexcept { return {options_.name, options_.rate_hz, kPdmBits + 1}; }
 
 bool Hostmot2Daq::exchange() noexcept {
-  question_.set32(counter_at_, ++counter_);
+  question_.set32(counter_at_, ++card_.counter());
   for (std::size_t i = 0; i < kChannels; ++i) question_.set32(codes_at_ + 4 * i, pdm_of(written_.codes[i]));
   question_.set32(enable_at_, armed_ ? (1U << kChannels) - 1 : 0);
   question_.set32(kick_at_, fed_ || !armed_ ? kWatchdogKick : 0);
   fed_ = false;
   if (!send(question_)) return false;
   for (int n = 0; n < kMostStale; ++n) {
-    if (!socket_.receive(answer_, options_.wait_share / options_.rate_hz)) return false;
+    if (!card_.link().receive(answer_, options_.wait_share / options_.rate_hz)) return false;
     if (answer_.size() != answer_bytes_)
       ++link_.malformed;
-    else if (answer_.value32(0) != counter_)
+    else if (answer_.value32(0) != card_.counter())
       ++link_.stale;
     else
       return true;

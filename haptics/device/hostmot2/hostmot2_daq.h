@@ -18,8 +18,8 @@
 #include <string>
 
 #include "haptics/device/data_acquisition.h"
+#include "haptics/device/hostmot2/card_inquiry.h"
 #include "haptics/device/hostmot2/hostmot2_map.h"
-#include "haptics/device/hostmot2/udp_link.h"
 
 namespace trocar {
 
@@ -61,12 +61,10 @@ class Hostmot2Daq final : public DataAcquisition {
   void arm(bool enabled) noexcept override;
 
   const hostmot2::Identity& identity() const { return identity_; }
-  const Hostmot2Link& link() const { return link_; }
+  Hostmot2Link link() const;
 
  private:
-  std::uint32_t ask(std::uint16_t address);
   bool send(const lbp16::Datagram& datagram) noexcept;
-  void identify();
   void set_up();
   void lay_out_exchange();
   void add_pins(lbp16::Datagram& to) const;
@@ -75,8 +73,7 @@ class Hostmot2Daq final : public DataAcquisition {
   const hostmot2::Module& module(hostmot2::Tag tag, int instances, const char* words) const;
 
   Hostmot2Options options_;
-  UdpLink socket_;
-  std::uint32_t counter_ = 0;
+  hostmot2::CardInquiry card_;
   hostmot2::Identity identity_;
   hostmot2::Module watchdog_, io_, encoder_, pwm_;
   double stamp_hz_ = 0;  ///< as the divider gives it

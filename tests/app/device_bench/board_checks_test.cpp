@@ -56,12 +56,17 @@ INSTANTIATE_TEST_SUITE_P(SeedsAndRates, SoundBoard,
                          ::testing::Values(std::pair{1, 1000.0}, std::pair{2, 2000.0}, std::pair{3, 4000.0},
                                            std::pair{40, 1000.0}, std::pair{500, 1000.0}));
 
-TEST(CardOnTheNetwork, PassesEveryCheck) {
-  SimulatedBench bench(SimulatedDaqConfig{}, kFakeHostmot2Backend);
+class SoundDriver : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SoundDriver, PassesEveryCheck) {
+  SimulatedBench bench(SimulatedDaqConfig{}, GetParam());
   const auto checks = check_board(bench);
   EXPECT_EQ(checks.size(), 14u);
   EXPECT_EQ(names(checks, Outcome::kPassed).size(), checks.size()) << all_words(checks);
 }
+
+INSTANTIATE_TEST_SUITE_P(Backends, SoundDriver, ::testing::Values(kFakeHostmot2Backend, kEmulatedMc4000Backend),
+                         [](const auto& backend) { return backend.index == 0 ? "Hostmot2" : "Mc4000"; });
 
 struct Case {
   const char* check;
