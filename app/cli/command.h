@@ -34,6 +34,7 @@ CLI::Validator seed_range();
 constexpr const char* kCardForms =
     "Of --backend hostmot2: address of the card (default: 192.168.1.121); of mc4000: the boards' folders in "
     "/sys/bus/pci/devices or their /dev/uio, with a comma";
+constexpr const char* kSensorForms = "A real force sensor at the stylus: net-ft:ADDRESS or serial:/dev/ttyUSB0";
 constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
 
@@ -59,6 +60,7 @@ AddCommand add_doctor;
 AddCommand add_export;
 
 AddCommand add_device_forward;
+AddCommand add_device_boards;
 AddCommand add_device_calibrate;
 AddCommand add_device_card;
 AddCommand add_device_selftest;

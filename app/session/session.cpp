@@ -279,7 +279,8 @@ Backend setup_backend(const AttemptSetup& setup) {
   return make_backend(setup.backend, {.simulated = simulated_device(setup),
                                       .sensor = sensor_of(setup).force,
                                       .sensor_seed = seed_of(setup) ^ kSensorSeed,
-                                      .card = setup.card});
+                                      .card = setup.card,
+                                      .force_sensor = setup.force_sensor});
 }
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,

@@ -162,6 +162,7 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
       ->check(CLI::IsMember(
           {kSimulatedBackend, kHostmot2Backend, kFakeHostmot2Backend, kMc4000Backend, kEmulatedMc4000Backend}));
   practice->add_option("--card", o.model.card, kCardForms);
+  practice->add_option("--sensor", o.model.force_sensor, kSensorForms);
   practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
   add_tissue_option(*practice, o.model.tissue);
   practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")

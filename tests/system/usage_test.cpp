@@ -34,6 +34,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"device", {"eval", "ik", "fk", "calibrate", "identify", "selftest", "monitor"}},
       {"device selftest", {"--backend", "--seed", "--rate", "--inject", "--json"}},
       {"device card", {"--json"}},
+      {"device boards", {"device"}},
       {"device monitor",
        {"--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject", "--json"}},
       {"device fk", {"--deg", "--csv", "--out", "--json"}},

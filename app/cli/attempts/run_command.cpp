@@ -155,6 +155,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.board = board_of(options);
   setup.backend = options.backend;
   setup.card = options.card;
+  setup.force_sensor = options.force_sensor;
   setup.rate_hz = options.rate_hz;
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
@@ -298,6 +299,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
     if (backend_capabilities(name, 1000).motors) backends += (backends.empty() ? "" : ", ") + name;
   run->add_option("--backend", o.backend, "Device that it runs on: " + backends)->capture_default_str();
   run->add_option("--card", o.card, kCardForms);
+  run->add_option("--sensor", o.force_sensor, kSensorForms);
   run->add_option("--rate", o.rate_hz, "Loop rate, Hz")
       ->capture_default_str()
       ->check(CLI::IsMember({1000, 2000, 4000}));

@@ -31,7 +31,7 @@ struct RunOptions {
   std::filesystem::path video = {};  ///< empty: no film
   std::optional<double> fps;         ///< none: 10 of pictures, 25 of a film
   std::string backend = kSimulatedBackend;
-  std::string card = {};  ///< as BackendOptions::card
+  std::string card = {}, force_sensor = {};  ///< as BackendOptions has them
   double rate_hz = 1000;
   std::string contact_law = "proxy", passivity_law = "budgeted";
   bool clamp = false;                   ///< contacts stiffer than K_max are weakened to it

@@ -1,4 +1,5 @@
 // `trocar device card`: who a Mesa card on the network is, what its firmware has, and what its inputs say now.
+// `trocar device boards`: what stands in the registers of MC4000 boards.
 //
 // Registers are read; nothing is written but the counter that a card keeps for its host.
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include "app/cli/text_table.h"
 #include "haptics/device/hostmot2/card_inquiry.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
+#include "haptics/device/mc4000/mc4000_daq.h"
+#include "haptics/device/mc4000/pci_bus.h"
 
 namespace trocar {
 namespace {
@@ -103,7 +106,24 @@ int device_card(const CardCommand& options, std::ostream& out, std::ostream& err
   return fit ? 0 : kUnfit;
 }
 
+/// What stands in a board's registers, one that nobody answers for included: all ones.
+int device_boards(const std::vector<std::string>& boards, std::ostream& out) {
+  for (const std::string& board : boards) {
+    PciBus bus(board, 1000);
+    out << board << '\n';
+    for (const std::string& line : Mc4000Daq::dry_look(bus, {})) out << "  " << line << '\n';
+  }
+  return 0;
+}
+
 }  // namespace
+
+void add_device_boards(CLI::App& parent, CommandAction& chosen) {
+  const auto given = std::make_shared<std::vector<std::string>>();
+  CLI::App* boards = add_command(parent, "boards", "What stands in the registers of MC4000 boards; reads only", chosen,
+                                 [given] { return device_boards(*given, std::cout); });
+  boards->add_option("device", *given, "Folder in /sys/bus/pci/devices, or /dev/uio, of each board")->required();
+}
 
 void add_device_card(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<CardCommand>();

@@ -62,7 +62,8 @@ struct AttemptSetup {
   std::int64_t seed = 1;
   int board = 0;
   std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
-  std::string card = {};              ///< address, of the one that is a card on the network
+  std::string card = {};              ///< where its card or boards are, of one that has some
+  std::string force_sensor = {};      ///< a real one, as make_force_sensor() takes it
   double rate_hz = 1000;
   ContactLaw contact_law = ContactLaw::kProxy;
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;

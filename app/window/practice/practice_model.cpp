@@ -332,6 +332,7 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   else if (!options.backend.empty())
     out.setup.backend = options.backend;
   out.setup.card = options.card;
+  out.setup.force_sensor = options.force_sensor;
   out.setup.realtime = true;
   if (backend_abilities(out.setup.backend).pace) out.setup.pace = kSimulatedLivePace;
   out.trainee = scripted() ? kDemonstration : trainee;

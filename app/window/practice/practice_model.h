@@ -38,8 +38,8 @@ struct ModelOptions {
   std::string tissue = {};  ///< one of kTissueWords; empty: the exercise's
   std::string input = "auto";
   std::string backend = {};  ///< that input "device" means, as make_backend() knows it; empty: the simulated device
-  std::string card = {};     ///< address of its card
-  std::filesystem::path settings = {};  ///< empty: settings_file()
+  std::string card = {}, force_sensor = {};  ///< as AttemptSetup has them
+  std::filesystem::path settings = {};       ///< empty: settings_file()
   std::string hand = {};  ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name
   std::optional<std::int64_t> seed = {};  ///< given: every attempt draws from it, but a person's exam
   std::optional<double> scale = {};       ///< given: this time only, whatever the settings say

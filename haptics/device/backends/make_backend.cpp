@@ -6,6 +6,7 @@
 #include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/device/pointer_daq.h"
 #include "haptics/device/replay_daq.h"
+#include "haptics/force_sensor/ati/net_ft.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/input_error.h"
 
@@ -177,7 +178,17 @@ Backend make_backend(const std::string& name, const BackendOptions& options) {
   const BackendKind& kind = backend_kind(name);
   Backend backend = kind.make(options);
   backend.can = kind.can;
+  if (!options.force_sensor.empty()) backend.sensor = make_force_sensor(options.force_sensor);
   return backend;
+}
+
+std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const WrenchStreamOptions& net_ft,
+                                                const WrenchStreamOptions& serial) {
+  const std::size_t colon = words.find(':');
+  const std::string kind = words.substr(0, colon), where = colon == std::string::npos ? "" : words.substr(colon + 1);
+  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, net_ft);
+  if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, serial);
+  throw InputError("--sensor " + words + ": net-ft:ADDRESS or serial:DEVICE is expected");
 }
 
 Backend replay_backend(std::vector<DaqSample> samples, const DaqCapabilities& recorded) {

@@ -10,6 +10,7 @@
 #include "haptics/device/backend.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/simulated_daq.h"
+#include "haptics/force_sensor/ati/ati_serial.h"
 
 namespace trocar {
 
@@ -30,6 +31,9 @@ struct BackendOptions {
   /// Of "hostmot2": the card's address. Of "mc4000": folders of the two boards in PCI's sysfs, or their /dev/uio, with
   /// a comma. Empty: the address as delivered.
   std::string card = {};
+  /// A real force sensor in place of the back-end's: "net-ft:192.168.1.1", "serial:/dev/ttyUSB0". Empty: the
+  /// back-end's.
+  std::string force_sensor = {};
 };
 
 /// Names that make_backend() knows.
@@ -40,6 +44,9 @@ DaqCapabilities backend_capabilities(const std::string& name, double rate_hz);
 BackendAbilities backend_abilities(const std::string& name);
 /// @throws InputError listing the names; std::invalid_argument when an option is out of range.
 Backend make_backend(const std::string& name, const BackendOptions& options);
+/// @param words as BackendOptions::force_sensor. @throws InputError: another word; as NetFt, AtiSerial.
+std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const WrenchStreamOptions& net_ft = {},
+                                                const WrenchStreamOptions& serial = nano25_options());
 /// Plays a recording back: no sensor, no world. @param samples at least one. @param recorded on what it was recorded.
 Backend replay_backend(std::vector<DaqSample> samples, const DaqCapabilities& recorded);
 

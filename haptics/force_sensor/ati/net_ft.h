@@ -1,0 +1,32 @@
+// ATI Net F/T over UDP (RDT protocol): 36-byte records, big-endian, at the box's own rate.
+//
+// Request: 0x1234, command (2: records until further notice, 0: stop, 0x42: bias), count. Record: sequence of records,
+// of the sensor, status, three forces, three moments as 32-bit counts. A gap of the sequence is counted, a record that
+// is older than the newest is dropped, a status other than 0 makes a record unsound. Source: ATI, Net F/T manual
+// 9610-05-1022, chapter RDT. Threads: as WrenchStream.
+#pragma once
+
+#include "haptics/device/hostmot2/udp_link.h"
+#include "haptics/force_sensor/ati/wrench_stream.h"
+
+namespace trocar {
+
+inline constexpr int kNetFtPort = 49152;
+
+class NetFt final : public WrenchStream {
+ public:
+  /// @param box "192.168.1.1" or with a port. @throws as UdpLink.
+  NetFt(const std::string& box, const WrenchStreamOptions& options);
+  ~NetFt() override;
+
+ private:
+  void listen() override;
+  void ask(std::uint16_t command);
+  void take_in(const lbp16::Datagram& datagram);
+
+  UdpLink link_;
+  bool first_ = true;
+  std::uint32_t sequence_ = 0;
+};
+
+}  // namespace trocar

@@ -1,0 +1,73 @@
+#include "haptics/force_sensor/ati/wrench_stream.h"
+
+#include <cmath>
+#include <ctime>
+
+namespace trocar {
+namespace {
+
+std::int64_t now_ns() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+constexpr std::uint64_t WrenchLink::*kCounters[] = {&WrenchLink::records,      &WrenchLink::lost,
+                                                    &WrenchLink::out_of_order, &WrenchLink::malformed,
+                                                    &WrenchLink::unsound,      &WrenchLink::begun};
+
+}  // namespace
+
+WrenchStream::WrenchStream(const WrenchStreamOptions& options) : options_(options) {
+  config_.rate_hz = options.rate_hz;
+  config_.lag_s = options.lag_s;
+  config_.noise_n = config_.drift_n_per_h = 0;  // the real one has its own
+}
+
+std::size_t WrenchStream::delay() const {
+  return static_cast<std::size_t>(std::lround(options_.lag_s * options_.rate_hz));
+}
+
+void WrenchStream::stop() {
+  ends_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void WrenchStream::count(std::uint64_t WrenchLink::*what, std::uint64_t by) {
+  for (std::size_t i = 0; i < counters_.size(); ++i)
+    if (kCounters[i] == what) counters_[i].fetch_add(by, std::memory_order_relaxed);
+}
+
+WrenchLink WrenchStream::link() const {
+  WrenchLink out;
+  for (std::size_t i = 0; i < counters_.size(); ++i) out.*kCounters[i] = counters_[i].load(std::memory_order_relaxed);
+  return out;
+}
+
+void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
+  WrenchRecord record;
+  record.number = ++taken_;
+  record.arrived_ns = now_ns();
+  Vec3 force, moment;
+  for (int i = 0; i < 3; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    force[i] = static_cast<double>(counts[c]) / options_.counts_per_n;
+    moment[i] = static_cast<double>(counts[c + 3]) / options_.counts_per_nm;
+  }
+  record.sound = sound && force.cwiseAbs().maxCoeff() <= options_.most_n;
+  force = options_.R_out_sensor * force;
+  if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n;
+  record.force_n = force - zero_ - options_.fixture_n;
+  record.moment_nm = options_.R_out_sensor * moment;
+  count(&WrenchLink::records);
+  if (!record.sound) count(&WrenchLink::unsound);
+  newest_.write(record);
+}
+
+ForceSample WrenchStream::sample(const Vec3& /*acting*/) {
+  const WrenchRecord& record = newest_.read();
+  const bool fresh = record.number > 0 && static_cast<double>(now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
+  return {.number = ++sampled_, .force = record.force_n, .valid = fresh && record.sound};
+}
+
+}  // namespace trocar
