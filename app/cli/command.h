@@ -64,6 +64,7 @@ AddCommand add_device_boards;
 AddCommand add_device_calibrate;
 AddCommand add_device_card;
 AddCommand add_device_selftest;
+AddCommand add_device_sensor;
 AddCommand add_device_monitor;
 AddCommand add_device_plant;
 AddCommand add_device_eval;

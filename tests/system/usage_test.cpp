@@ -10,12 +10,12 @@ using Usage = SystemTest;
 
 const std::map<std::string, Translator>& other_commands_and_flags() {
   static const std::map<std::string, Translator> table{
-      {"run", {"--hand",    "--level",     "--seed",  "--trainee",     "--db",      "--organ",  "--board",
-               "--record",  "--frames",    "--video", "--fps",         "--backend", "--card",   "--rate",
-               "--contact", "--passivity", "--clamp", "--calibration", "--device",  "--inject", "--json"}},
+      {"run", {"--hand",      "--level", "--seed",        "--trainee", "--db",     "--organ",  "--board", "--record",
+               "--frames",    "--video", "--fps",         "--backend", "--card",   "--sensor", "--rate",  "--contact",
+               "--passivity", "--clamp", "--calibration", "--device",  "--inject", "--json"}},
       {"practice",
        {"--level", "--trainee", "--input", "--organ", "--db", "--scale", "--language", "--settings", "--hand", "--seed",
-        "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope", "--backend", "--card"}},
+        "--width", "--height", "--fullscreen", "--screens", "--timing", "--scope", "--backend", "--card", "--sensor"}},
       {"test", {"--filter", "--junit", "--jobs", "--list"}},
       {"sweep", {"--hand", "--level", "--seeds", "--organ", "--jobs", "--json"}},
       {"replay",
@@ -35,6 +35,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"device selftest", {"--backend", "--seed", "--rate", "--inject", "--json"}},
       {"device card", {"--json"}},
       {"device boards", {"device"}},
+      {"device sensor", {"--seconds", "--bias", "--json"}},
       {"device monitor",
        {"--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject", "--json"}},
       {"device fk", {"--deg", "--csv", "--out", "--json"}},
