@@ -50,7 +50,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"organ render", {"-o", "--width", "--height"}},
       {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},
-      {"doctor", {"--db", "--json"}},
+      {"doctor", {"--db", "--card", "--sensor", "--json"}},
       {"completion", {"shell"}},
       {"manual", {}}};
   return table;

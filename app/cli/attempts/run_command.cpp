@@ -85,7 +85,8 @@ void say_beginning(const Scene& scene, std::ostream& err) {
   err << "trocar: " << scene.setup.exercise.number << ' ' << scene.setup.exercise.title << ", " << scene.level.name
       << ", board " << scene.setup.board << ", hand " << scene.setup.hand << ", organ " << scene.organ.name
       << (scene.organ.synthetic ? " (synthetic)" : "") << ", on the simulated plant"
-      << (scene.setup.plant ? " of " + plant_words(*scene.setup.plant) : "") << '\n';
+      << (scene.setup.plant ? " of " + plant_words(*scene.setup.plant) : "")
+      << (scene.setup.backend == kSimulatedBackend ? "" : " behind " + scene.setup.backend) << '\n';
   const std::string plant = scene.setup.plant ? simulated_plant_words(plant_words(*scene.setup.plant))
                                               : simulated_plant_words(static_cast<std::uint64_t>(scene.setup.seed));
   const double spacing_m = scene.setup.exercise.layout.min_spacing_m;

@@ -1,9 +1,16 @@
 #include "app/cli/machine/doctor_command.h"
 
+#include <pthread.h>
+#include <sched.h>
 #include <sys/resource.h>
+#include <sys/timex.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <iostream>
@@ -18,6 +25,8 @@
 #include "app/cli/command.h"
 #include "app/picture/gl/headless_context.h"
 #include "app/session/setup/scene.h"
+#include "haptics/device/backends/make_backend.h"
+#include "haptics/device/hostmot2/card_inquiry.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "trainees/store/database.h"
@@ -111,17 +120,137 @@ Finding limit(const char* name, int resource, double wanted, const std::string& 
   return {name, enough ? State::kGood : State::kNote, value + (enough ? "" : ": " + meaning)};
 }
 
+std::string first_line(const fs::path& file) {
+  std::string line;
+  std::ifstream in(file);
+  std::getline(in, line);
+  return line;
+}
+
+Finding kernel() {
+  utsname name = {};
+  uname(&name);
+  const std::string text = std::string(name.sysname) + " " + name.release;
+  if (first_line("/sys/kernel/realtime") == "1") return {"kernel", State::kGood, text + ", real-time"};
+  return {"kernel", State::kNote, text + ": not a real-time kernel; for a device: apt install linux-image-rt-amd64"};
+}
+
+/// Whether a thread here really gets what a live loop asks for.
+Finding real_time() {
+  bool got = false;
+  std::thread([&got] {
+    const sched_param wanted = {.sched_priority = kLoopPriority};
+    got = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
+  }).join();
+  if (got) return {"real-time", State::kGood, "a thread gets SCHED_FIFO " + std::to_string(kLoopPriority)};
+  return {"real-time", State::kNote,
+          "a thread does not get SCHED_FIFO: put \"@realtime - rtprio " + std::to_string(kLoopPriority) +
+              "\" and \"@realtime - memlock unlimited\" into /etc/security/limits.d/trocar.conf, then sudo groupadd -f "
+              "realtime, sudo usermod -aG realtime $USER, and log in anew"};
+}
+
+Finding governor() {
+  const std::string now = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  if (now.empty()) return {"governor", State::kGood, "the processors' clock is not this system's to set"};
+  if (now == "performance") return {"governor", State::kGood, now};
+  return {"governor", State::kNote,
+          now + ": the clock sinks when it is idle; for a device: sudo cpupower frequency-set -g performance"};
+}
+
+Finding display() {
+  const char *x = std::getenv("DISPLAY"), *wayland = std::getenv("WAYLAND_DISPLAY");
+  if (wayland && *wayland) return {"display", State::kGood, std::string("Wayland ") + wayland};
+  if (x && *x) return {"display", State::kGood, std::string("X ") + x};
+  return {"display", State::kNote, "none: no window; trocar demo --headless, run and review work without"};
+}
+
+Finding locale() {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(variable);
+    if (!value || !*value) continue;
+    const std::string text = value;
+    const bool utf8 = text.find("UTF-8") != std::string::npos || text.find("utf8") != std::string::npos;
+    return {"locale", utf8 ? State::kGood : State::kNote,
+            std::string(variable) + "=" + text +
+                (utf8 ? "" : ": not UTF-8; names of people and files are written as UTF-8 all the same")};
+  }
+  return {"locale", State::kNote, "none is set: the window speaks English; names are written as UTF-8"};
+}
+
+Finding clock_state() {
+  timex now = {};
+  if (adjtimex(&now) != TIME_ERROR) return {"clock", State::kGood, "set by a time server"};
+  return {"clock", State::kNote,
+          "nobody sets it: times in the record are this machine's own; sudo timedatectl set-ntp true"};
+}
+
+/// Files of a folder whose names begin so, with whether they may be used.
+std::string devices(const fs::path& folder, const std::string& begin, bool& closed) {
+  std::string out;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.path().filename().string().starts_with(begin)) continue;
+    const bool open = access(entry.path().c_str(), R_OK | W_OK) == 0;
+    closed = closed || !open;
+    out += (out.empty() ? "" : ", ") + entry.path().string() + (open ? "" : " (no right)");
+  }
+  return out;
+}
+
+Finding serial_lines() {
+  bool closed = false;
+  const std::string found = devices("/dev", "ttyUSB", closed);
+  if (found.empty()) return {"serial", State::kGood, "no USB serial line; a force sensor may be on one"};
+  return {"serial", closed ? State::kNote : State::kGood,
+          found + (closed ? ": sudo usermod -aG dialout $USER, and log in anew" : "")};
+}
+
+Finding boards() {
+  bool closed = false;
+  const std::string found = devices("/dev", "uio", closed);
+  if (found.empty())
+    return {"boards", State::kGood, "no /dev/uio: no board is bound to it; docs/real_hardware.md says how"};
+  return {"boards", closed ? State::kNote : State::kGood,
+          found + (closed ? ": a udev rule must give them to your group (docs/real_hardware.md)" : "")};
+}
+
+std::string card_words(const std::string& address) {
+  hostmot2::CardInquiry card(address, Hostmot2Options{}.setup_wait_s);
+  return card.identify().board + " at " + address + "; trocar device card " + address + " says more";
+}
+
+std::string sensor_words(const std::string& words) {
+  constexpr auto kPatience = std::chrono::milliseconds(500);
+  const auto sensor = make_force_sensor(words);
+  std::this_thread::sleep_for(kPatience);
+  if (!sensor->sample(Vec3::Zero()).valid)
+    throw EnvironmentError(words + ": says nothing that holds; is it powered, and nothing else listening?");
+  return words + ": " + std::to_string(sensor->link().records) + " records in half a second";
+}
+
 std::vector<Finding> findings(const DoctorOptions& options) {
   const fs::path file = database_file(options);
-  return {{"version", State::kGood,
-           "trocar " TROCAR_VERSION ", database schema " + std::to_string(shipped_migrations().back().version)},
-          {"processors", State::kGood, std::to_string(std::thread::hardware_concurrency())},
-          needed("assets", assets),
-          needed("picture", picture),
-          needed("database", [&] { return database(file); }),
-          disk_room(file),
-          limit("rtprio", RLIMIT_RTPRIO, kLoopPriority, "a live loop would run without real-time priority"),
-          limit("memlock", RLIMIT_MEMLOCK, 256 * kMiB, "a live loop could not lock its memory")};
+  std::vector<Finding> found{
+      {"version", State::kGood,
+       "trocar " TROCAR_VERSION ", database schema " + std::to_string(shipped_migrations().back().version)},
+      {"processors", State::kGood, std::to_string(std::thread::hardware_concurrency())},
+      needed("assets", assets),
+      needed("picture", picture),
+      needed("database", [&] { return database(file); }),
+      disk_room(file),
+      limit("rtprio", RLIMIT_RTPRIO, kLoopPriority, "a live loop would run without real-time priority"),
+      limit("memlock", RLIMIT_MEMLOCK, 256 * kMiB, "a live loop could not lock its memory"),
+      kernel(),
+      real_time(),
+      governor(),
+      display(),
+      locale(),
+      clock_state(),
+      serial_lines(),
+      boards()};
+  if (!options.card.empty()) found.push_back(needed("card", [&] { return card_words(options.card); }));
+  if (!options.sensor.empty()) found.push_back(needed("sensor", [&] { return sensor_words(options.sensor); }));
+  return found;
 }
 
 }  // namespace
@@ -152,6 +281,8 @@ void add_doctor(CLI::App& parent, CommandAction& chosen) {
   CLI::App* doctor = add_command(parent, "doctor", "What this machine offers, and what is missing", chosen,
                                  [given] { return doctor_command(*given, std::cout, std::cerr); });
   doctor->add_option("--db", o.database, "Database file");
+  doctor->add_option("--card", o.card, "Address of a Mesa card, to be asked too");
+  doctor->add_option("--sensor", o.sensor, "A force sensor, net-ft:ADDRESS or serial:DEVICE, to be heard too");
   doctor->add_flag("--json", o.json, "As JSON");
 }
 

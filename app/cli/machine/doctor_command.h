@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 namespace trocar {
 
 struct DoctorOptions {
-  std::filesystem::path database;  ///< empty: the default path
+  std::filesystem::path database;      ///< empty: the default path
+  std::string card = {}, sensor = {};  ///< to be asked too: address of a Mesa card; a force sensor as run takes it
   bool json = false;
 };
 
