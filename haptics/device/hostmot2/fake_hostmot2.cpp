@@ -1,5 +1,8 @@
 #include "haptics/device/hostmot2/fake_hostmot2.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,6 +21,7 @@ constexpr std::uint16_t kIdromAt = 0x0400, kModulesAt = 0x0440, kPinsAt = 0x0600
 constexpr std::uint32_t kClockLowHz = 100'000'000, kClockHighHz = 200'000'000;  // 7I80
 constexpr int kPorts = 3, kPinsInPort = 24, kTimerWords = 8;
 constexpr std::size_t kWords = 0x10000 / 4;
+constexpr int kCardPriority = 90;       // above the loop's
 constexpr double kServeEvery_s = 0.05;  // looks whether it ends
 
 Module module_of(Tag tag, int instances, std::uint16_t base) { return {tag, 0, instances, base, 0x100, 4, 0}; }
@@ -137,6 +141,9 @@ void FakeHostmot2::trouble(const CardTroubles& troubles) {
 }
 
 void FakeHostmot2::serve() {
+  // A card is not kept waiting by what else the computer does. Where that right is not given it is, as the loop is too.
+  const sched_param as_hardware = {.sched_priority = kCardPriority};
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &as_hardware);
   Datagram question;
   while (!ends_) {
     if (!socket_.receive(question, kServeEvery_s)) continue;
