@@ -26,6 +26,10 @@ int crossing_above(const std::array<Vec3, 3>& triangle, const Vec3& place) {
   return height > place.z() ? (left ? 1 : -1) : 0;
 }
 
+double top_of(const std::array<Vec3, 3>& triangle) {
+  return std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()});
+}
+
 }  // namespace
 
 OrganRegions::Columns OrganRegions::columns_of(const TriangleSurface& surface) {
@@ -36,6 +40,8 @@ OrganRegions::Columns OrganRegions::columns_of(const TriangleSurface& surface) {
     organ.triangles.push_back({surface.vertices[static_cast<std::size_t>(a)],
                                surface.vertices[static_cast<std::size_t>(b)],
                                surface.vertices[static_cast<std::size_t>(c)]});
+  std::sort(organ.triangles.begin(), organ.triangles.end(),
+            [](const auto& a, const auto& b) { return top_of(a) > top_of(b); });
   const Vec3 size = organ.box.sizes();
   organ.edge = std::sqrt(size.x() * size.y() / static_cast<double>(organ.triangles.size()));
   const auto column = [&](double along, Eigen::Index axis) {
@@ -66,7 +72,11 @@ bool OrganRegions::Columns::holds(const Vec3& place) const {
   const auto j = static_cast<std::size_t>((place.y() - box.min().y()) / edge);
   const std::size_t at = j * static_cast<std::size_t>(wide) + i;
   int crossings = 0;
-  for (std::uint32_t n = first[at]; n < first[at + 1]; ++n) crossings += crossing_above(triangles[listed[n]], place);
+  for (std::uint32_t n = first[at]; n < first[at + 1]; ++n) {
+    const std::array<Vec3, 3>& triangle = triangles[listed[n]];
+    if (top_of(triangle) <= place.z()) break;  // and so are all behind it
+    crossings += crossing_above(triangle, place);
+  }
   return crossings > 0;
 }
 

@@ -29,10 +29,10 @@ class OrganRegions {
     int number = 0;
     double volume = 0;
     Eigen::AlignedBox3d box;
-    double edge = 1;  ///< of a column
-    int wide = 0;     ///< columns along x
-    std::vector<std::array<Vec3, 3>> triangles;
-    std::vector<std::uint32_t> first, listed;  ///< column c lists triangles listed[first[c]] to listed[first[c + 1]]
+    double edge = 1;                             ///< of a column
+    int wide = 0;                                ///< columns along x
+    std::vector<std::array<Vec3, 3>> triangles;  ///< the highest first
+    std::vector<std::uint32_t> first, listed;    ///< column c lists triangles listed[first[c]] to listed[first[c + 1]]
     bool holds(const Vec3& place) const;
   };
   static Columns columns_of(const TriangleSurface& surface);

@@ -130,7 +130,7 @@ TEST_F(GoldenPath, TetrahedraOfEveryGoldenOrganStandUpAndKeepTheVolume) {
       const BuiltTetrahedra built = make_tetrahedra({&surface}, {.cell_m = cell});
       EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.1) << name << ' ' << cell;
       EXPECT_GE(built.facts.min_dihedral_deg, 14) << name << ' ' << cell;
-      EXPECT_LE(built.facts.surface_rms_m, 0.05 * cell) << name << ' ' << cell;
+      EXPECT_LE(built.facts.surface_rms_m, 0.07 * cell) << name << ' ' << cell;
       EXPECT_LE(built.facts.surface_max_m, 0.3 * cell) << name << ' ' << cell;
     }
 }
