@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "haptics/digest/digest.h"
-#include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "tissue/mesh/surface/vessel_graph.h"
 #include "tissue/organ/toml_table.h"
 #include "tissue/solid/lattice.h"
-#include "tissue/solid/tetrahedra.h"
+#include "tissue/solid/tetrahedra_file.h"
 
 namespace trocar {
 namespace {
@@ -30,11 +30,10 @@ SideFile lattice_file(const OrganImportOptions& options, const std::filesystem::
 }
 
 SideFile tetrahedra_file(const OrganImportOptions& options, const std::filesystem::path& stem,
-                         const LabelledOrgan& made_from, OrganManifest& manifest) {
-  if (made_from.labels == nullptr) throw InputError("--tetrahedra are made from labels; a surface alone has none");
-  const BuiltTetrahedra built = make_tetrahedra(*made_from.labels, {made_from.number},
-                                                {.cell_m = options.tetrahedra_mm * 1e-3, .progress = options.progress});
-  SideFile file{stem.filename().string() + ".msh", gmsh_text(built.mesh)};
+                         const TriangleSurface& surface, OrganManifest& manifest) {
+  const BuiltTetrahedra built =
+      make_tetrahedra({&surface}, {.cell_m = options.tetrahedra_mm * 1e-3, .progress = options.progress});
+  SideFile file{stem.filename().string() + ".msh", gmsh_text(built.mesh, {harmless(manifest.name)})};
   const TetrahedraFacts& facts = built.facts;
   manifest.tetrahedra = VolumeMeshFile{file.name,
                                        digest::of_bytes(file.bytes),
@@ -43,7 +42,6 @@ SideFile tetrahedra_file(const OrganImportOptions& options, const std::filesyste
                                        options.tetrahedra_mm,
                                        facts.volume_error_pct,
                                        facts.min_dihedral_deg};
-  for (const std::string& note : built.notes) manifest.decisions.push_back(note);
   return file;
 }
 
@@ -54,7 +52,7 @@ std::vector<SideFile> volume_meshes(const OrganImportOptions& options, const std
                                     OrganManifest& manifest) {
   std::vector<SideFile> files;
   if (options.lattice_mm > 0) files.push_back(lattice_file(options, stem, surface, made_from, manifest));
-  if (options.tetrahedra_mm > 0) files.push_back(tetrahedra_file(options, stem, made_from, manifest));
+  if (options.tetrahedra_mm != 0) files.push_back(tetrahedra_file(options, stem, surface, manifest));
   return files;
 }
 

@@ -21,7 +21,7 @@ struct LabelledOrgan {
 };
 
 /// Lattice and tetrahedra as the options ask; their facts enter the manifest.
-/// @throws InputError when tetrahedra are asked of an organ without labels
+/// @throws InputError: tetrahedra or cells of a size that cannot be
 std::vector<SideFile> volume_meshes(const OrganImportOptions& options, const std::filesystem::path& stem,
                                     const TriangleSurface& surface, const LabelledOrgan& made_from,
                                     OrganManifest& manifest);

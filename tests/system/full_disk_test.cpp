@@ -90,5 +90,19 @@ TEST_F(FullDisk, WithoutRoomForADatabaseNothingIsStarted) {
   EXPECT_EQ(trocar(short_run({"--db", "new.db"})).exit_code, 1) << "with room it works, whatever was left behind";
 }
 
+TEST_F(FullDisk, AnExportThatDoesNotFitLeavesNothing) {
+  for (const Translator& words :
+       {Translator{"organ", "export", "phantom-abdomen", "-o", "a.glb"},
+        Translator{"organ", "export", "phantom-abdomen", "-o", "organs"},
+        Translator{"organ", "export", "phantom-gallbladder", "-o", "g.msh", "--tetrahedra", "6"}}) {
+    const Outcome run = with_room(20000, words);
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find("cannot be written: File too large"), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+  for (const char* name : {"a.glb", "a.glb.part", "organs", "g.msh", "g.msh.part"})
+    EXPECT_FALSE(fs::exists(folder_ / name)) << name;
+}
+
 }  // namespace
 }  // namespace trocar::test::full_disk_test

@@ -46,7 +46,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"organ", {"import", "info", "render", "phantom"}},
       {"organ import", {"--labels", "--label", "--triangles", "--unit", "-o", "--json"}},
       {"organ info", {"--json"}},
-      {"organ export", {"-o", "--format"}},
+      {"organ export", {"-o", "--format", "--tetrahedra"}},
       {"organ render", {"-o", "--width", "--height"}},
       {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},

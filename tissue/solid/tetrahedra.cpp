@@ -2,152 +2,185 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <sstream>
 
 #include "haptics/input_error.h"
-#include "tissue/mesh/surface/label_surface.h"
+#include "tissue/mesh/files/surface_file.h"
 #include "tissue/mesh/surface/surface_check.h"
 #include "tissue/mesh/surface/topology.h"
+#include "tissue/solid/organ_regions.h"
+#include "tissue/solid/tetrahedra_angles.h"
+#include "tissue/solid/tetrahedra_border.h"
 #include "tissue/solid/tetrahedra_mesher.h"
 
 namespace trocar {
 namespace {
 
-/// One label's field with its level taken off: above 0 inside, linear between the samples. Places in mm.
-class LabelField {
- public:
-  LabelField(const LabelVolume& volume, int label, const Progress& progress)
-      : mask_(cut_out_label(volume, label, kSmoothingMargin, {})) {
-    constexpr int kTriangles = 100000;  // as finely as the voxels allow
-    LabelSurface surface = label_surface(volume, label, mask_, kTriangles, progress);
-    dense_ = std::move(surface.dense);
-    field_ = signed_field(smooth_field(mask_, {}, surface.sampling), mask_, surface.sampling, surface.level);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const int step = surface.sampling[static_cast<std::size_t>(axis)];
-      first_[axis] = sample_place(0, step) + mask_.first[static_cast<std::size_t>(axis)];
-      spacing_[axis] = sample_place(1, step) - sample_place(0, step);
-    }
-  }
+using Surfaces = std::vector<const TriangleSurface*>;
 
-  /// @param voxel place in voxels of the label map
-  double at(const Vec3& voxel) const {
-    const Vec3 place = (voxel - first_).cwiseQuotient(spacing_);
-    std::array<int, 3> low{};
-    Vec3 share;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto n = static_cast<std::size_t>(axis);
-      const double floor = std::floor(place[axis]);
-      if (!(floor >= 0) || floor + 1 >= field_.size[n]) return -1;
-      low[n] = static_cast<int>(floor);
-      share[axis] = place[axis] - floor;
-    }
-    double value = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      double weight = 1;
-      for (int axis = 0; axis < 3; ++axis) weight *= (corner >> axis & 1) != 0 ? share[axis] : 1 - share[axis];
-      value += weight *
-               field_.values[field_.offset(low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2))];
-    }
-    return value;
-  }
+constexpr double kFacetDistance = 0.1;  ///< of the size, or of the radius where that is smaller
+constexpr double kExuded = 20;          ///< degrees: beyond it exudation takes long and gains nothing
+constexpr double kWanted = 15;          ///< degrees
+constexpr double kReach = 1.5;          ///< of the facet distance: how far a border node may go for an angle
+constexpr int kRounds = 3;
+constexpr double kBytesEach = 1000;  ///< of memory while a tetrahedron is made; 650 measured
 
-  const TriangleSurface& dense() const { return dense_; }
-  std::size_t voxels() const { return mask_.kept_voxels; }
+/// Of a tube its radius, of a ball two thirds of it.
+double radius_of(const TriangleSurface& surface) { return 2 * surface.volume_m3() / surface_area_m2(surface); }
 
- private:
-  LabelMask mask_;
-  ScalarField field_;
-  TriangleSurface dense_;
-  Vec3 first_, spacing_;
-};
-
-double six_cell_volumes(const TetrahedraMesh& mesh, const std::array<std::int32_t, 4>& t) {
-  const auto at = [&](std::size_t n) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(t[n])]; };
-  return (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
+double facet_distance(const TriangleSurface& surface, double cell) {
+  return kFacetDistance * std::min(cell, radius_of(surface));
 }
 
-/// Faces of one tetrahedron only, outward.
-TriangleSurface boundary_of(const TetrahedraMesh& mesh) {
-  constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-  std::map<std::array<std::int32_t, 3>, std::pair<int, std::array<std::int32_t, 3>>> faces;
-  for (const auto& t : mesh.tetrahedra)
-    for (const auto& f : kFaces) {
-      const std::array<std::int32_t, 3> face{t[f[0]], t[f[1]], t[f[2]]};
-      auto key = face;
-      std::sort(key.begin(), key.end());
-      auto& entry = faces[key];
-      ++entry.first;
-      entry.second = face;
-    }
-  TriangleSurface surface;
-  surface.vertices = mesh.nodes;
-  for (const auto& [key, entry] : faces)
-    if (entry.first == 1) surface.triangles.push_back(entry.second);
-  return surface;
+/// Largest radius of a facet that keeps the distance on a tube or a ball as thick as the organ.
+double facet_radius(const TriangleSurface& surface, double cell) {
+  return std::min(cell, std::sqrt(2 * radius_of(surface) * facet_distance(surface, cell)));
 }
 
-TetrahedraFacts facts_of(const TetrahedraMesh& mesh, const std::vector<LabelField>& fields, double voxel_m3) {
+/// Memory that can be had, bytes; infinite where the system does not tell.
+double free_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  for (double kilobytes = 0; file >> key >> kilobytes; std::getline(file, unit))
+    if (key == "MemAvailable:") return kilobytes * 1024;
+  return std::numeric_limits<double>::infinity();
+}
+
+std::string in_words(double number) {
+  constexpr double kMillion = 1e6;
+  const auto whole = [](double value) { return std::to_string(std::llround(std::min(value, 1e15))); };
+  return number < kMillion ? whole(number) : whole(number / kMillion) + " million";
+}
+
+/// Smallest size of which few enough can be made, rounded up, in millimetres.
+std::string possible_size(const Surfaces& organs) {
+  double tenths = 1;
+  while (expected_tetrahedra(organs, tenths * 1e-4) > static_cast<double>(kMaxTriangles)) ++tenths;
+  std::ostringstream text;
+  text << tenths / 10 << " mm";
+  return text.str();
+}
+
+/// @throws InputError or EnvironmentError before anything is made
+void check_size(const Surfaces& organs, double cell_m) {
+  if (!(cell_m > 0 && cell_m <= 1)) throw InputError("tetrahedra: a size above 0 and up to 1000 mm is possible");
+  for (const TriangleSurface* organ : organs)
+    if (!(organ->volume_m3() > 0)) throw InputError("tetrahedra: a surface bounds no volume");
+  const double wanted = expected_tetrahedra(organs, cell_m);
+  const double gigabytes = wanted * kBytesEach / 1e9;
+  const std::string estimate = "tetrahedra of that size would be about " + in_words(wanted) + " and take about " +
+                               in_words(std::ceil(gigabytes)) + " GB of memory";
+  if (wanted > static_cast<double>(kMaxTriangles))
+    throw InputError(estimate + "; at most " + in_words(kMaxTriangles) + " are made: choose " + possible_size(organs) +
+                     " or more");
+  if (const double room = free_memory() / 1e9; gigabytes > room)
+    throw EnvironmentError(estimate + ", of which this machine has " + in_words(room) + " left: choose a larger size");
+}
+
+/// Vertices of the surfaces, on each no two nearer than its radius or a cell.
+std::vector<MesherSeed> seeds_on(const Surfaces& organs, double cell) {
+  std::vector<MesherSeed> seeds;
+  for (std::size_t n = 0; n < organs.size(); ++n) {
+    const double apart = std::min(cell, radius_of(*organs[n]));
+    std::map<std::array<std::int64_t, 3>, std::vector<Vec3>> kept;  // by cubes of that edge
+    for (const Vec3& place : organs[n]->vertices) {
+      const Eigen::Array3d cube = (place.array() / apart).floor();
+      bool near = false;
+      for (int side = 0; side < 27 && !near; ++side) {
+        const auto found = kept.find({static_cast<std::int64_t>(cube.x()) + side % 3 - 1,
+                                      static_cast<std::int64_t>(cube.y()) + side / 3 % 3 - 1,
+                                      static_cast<std::int64_t>(cube.z()) + side / 9 - 1});
+        if (found == kept.end()) continue;
+        near = std::any_of(found->second.begin(), found->second.end(),
+                           [&](const Vec3& other) { return (other - place).norm() < apart; });
+      }
+      if (near) continue;
+      kept[{static_cast<std::int64_t>(cube.x()), static_cast<std::int64_t>(cube.y()),
+            static_cast<std::int64_t>(cube.z())}]
+          .push_back(place);
+      seeds.push_back({place, static_cast<int>(n) + 1});
+    }
+  }
+  return seeds;
+}
+
+TetrahedraMesh refined(const Surfaces& organs, const OrganRegions& regions, const TetrahedraOptions& options) {
+  constexpr std::size_t kQuestions = 1 << 14;  // between two reports: some milliseconds
+  const double cell = options.cell_m;
+  MesherSettings settings;
+  for (const TriangleSurface* organ : organs) {
+    settings.box.extend(organ->bounds());
+    settings.facet_distances.push_back(facet_distance(*organ, cell));
+  }
+  settings.box.min().array() -= cell, settings.box.max().array() += cell;
+  settings.cell = settings.facet = cell;
+  settings.seeds = seeds_on(organs, cell);
+  settings.sliver_deg = kExuded;
+  settings.perturb = false;
+  std::size_t questions = 0;
+  const auto region = [&](const Vec3& place) {
+    if (questions++ % kQuestions == 0) report(options.progress, "filling with tetrahedra", -1);
+    return regions.at(place);
+  };
+  return meshed(region, settings);
+}
+
+/// Of each node: any of a region's inside, a border node as the finest of the regions there allows.
+std::vector<double> reach_of_nodes(const TetrahedraMesh& mesh, const std::vector<BorderFace>& border,
+                                   const std::vector<double>& distances) {
+  std::vector<double> reach(mesh.nodes.size(), std::numeric_limits<double>::infinity());
+  for (const BorderFace& face : border)
+    for (const std::int32_t label : {face.inner, face.outer})
+      for (const std::int32_t node : face.nodes)
+        if (label > 0)
+          reach[static_cast<std::size_t>(node)] =
+              std::min(reach[static_cast<std::size_t>(node)], kReach * distances[static_cast<std::size_t>(label - 1)]);
+  return reach;
+}
+
+TriangleSurface all_of(const Surfaces& organs) {
+  TriangleSurface all;
+  for (const TriangleSurface* organ : organs) {
+    const auto shift = static_cast<std::int32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), organ->vertices.begin(), organ->vertices.end());
+    for (const auto& [a, b, c] : organ->triangles) all.triangles.push_back({a + shift, b + shift, c + shift});
+  }
+  return all;
+}
+
+TetrahedraFacts facts_of(const TetrahedraMesh& mesh, const std::vector<BorderFace>& border,
+                         const std::vector<double>& targets, const Surfaces& organs) {
   constexpr double kSliverDeg = 15;
   TetrahedraFacts facts;
   facts.nodes = mesh.nodes.size(), facts.tetrahedra = mesh.tetrahedra.size();
+  facts.regions.resize(targets.size());
   facts.min_dihedral_deg = 180;
-  double slivers = 0, voxels = 0;
+  double slivers = 0;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const double angle = smallest_dihedral_deg(mesh, t);
     facts.min_dihedral_deg = std::min(facts.min_dihedral_deg, angle);
     slivers += angle < kSliverDeg ? 1 : 0;
-    facts.volume_ml += six_cell_volumes(mesh, mesh.tetrahedra[t]) / 6 * 1e6;
+    ++facts.regions[static_cast<std::size_t>(mesh.labels[t] - 1)].tetrahedra;
   }
   facts.share_below_15 = slivers / static_cast<double>(mesh.tetrahedra.size());
-  TriangleSurface dense;
-  for (const LabelField& field : fields) {
-    voxels += static_cast<double>(field.voxels());
-    const auto shift = static_cast<std::int32_t>(dense.vertices.size());
-    dense.vertices.insert(dense.vertices.end(), field.dense().vertices.begin(), field.dense().vertices.end());
-    for (const auto& [a, b, c] : field.dense().triangles) dense.triangles.push_back({a + shift, b + shift, c + shift});
+  const std::vector<double> volumes = region_volumes(mesh, targets.size());
+  for (std::size_t n = 0; n < targets.size(); ++n) {
+    TetrahedraRegion& region = facts.regions[n];
+    region.volume_ml = volumes[n] * 1e6;
+    region.volume_error_pct = targets[n] > 0 ? (volumes[n] / targets[n] - 1) * 100 : 0;
+    facts.volume_ml += region.volume_ml;
+    if (std::abs(region.volume_error_pct) > std::abs(facts.volume_error_pct))
+      facts.volume_error_pct = region.volume_error_pct;
   }
-  facts.volume_error_pct = (facts.volume_ml / (voxels * voxel_m3 * 1e6) - 1) * 100;
-  const SurfaceDistance distance = distance_from_to(boundary_of(mesh), dense);
-  facts.surface_rms_voxel = distance.rms_m / std::cbrt(voxel_m3);
-  facts.surface_max_voxel = distance.max_m / std::cbrt(voxel_m3);
+  TriangleSurface faces{mesh.nodes, {}};
+  for (const BorderFace& face : border) faces.triangles.push_back(face.nodes);
+  const SurfaceDistance distance = distance_from_to(faces, all_of(organs));
+  facts.surface_rms_m = distance.rms_m, facts.surface_max_m = distance.max_m;
   return facts;
-}
-
-double volume_m3(const TetrahedraMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.tetrahedra) sum += six_cell_volumes(mesh, t) / 6;
-  return sum;
-}
-
-/// Facets are chords: the mesh is a little small. Moves the outer nodes along the normals until it holds the voxels'
-/// volume.
-/// @return the shift, m; 0 when it would have squeezed a tetrahedron
-double correct_tetrahedra_volume(TetrahedraMesh& mesh, double volume) {
-  const TetrahedraMesh before = mesh;
-  TriangleSurface surface = boundary_of(mesh);
-  double shift = 0;
-  for (int round = 0; round < 4; ++round) {
-    const double step = (volume - volume_m3(mesh)) / surface_area_m2(surface);
-    const std::vector<Vec3> normals = surface.vertex_normals();
-    for (std::size_t n = 0; n < normals.size(); ++n) mesh.nodes[n] += step * normals[n];
-    surface.vertices = mesh.nodes;
-    shift += step;
-  }
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    if (six_cell_volumes(mesh, mesh.tetrahedra[t]) < 0.3 * six_cell_volumes(before, before.tetrahedra[t])) {
-      mesh = before;
-      return 0;
-    }
-  return shift;
-}
-
-void check_tetrahedra(const std::vector<int>& labels, const TetrahedraOptions& options) {
-  if (labels.empty()) throw InputError("no label was asked for");
-  if (!(options.cell_m > 1e-4 && options.cell_m < 1))
-    throw InputError("tetrahedra of that size cannot be made: 0.1 mm to 1 m are possible");
-  if (!(options.facet_distance_voxel >= 0.05 && options.facet_distance_voxel <= 10))
-    throw InputError("the facet distance must be 0.05 to 10 voxels");
 }
 
 }  // namespace
@@ -167,45 +200,30 @@ double smallest_dihedral_deg(const TetrahedraMesh& mesh, std::size_t tetrahedron
   return smallest;
 }
 
-BuiltTetrahedra make_tetrahedra(const LabelVolume& volume, const std::vector<int>& labels,
-                                const TetrahedraOptions& options) {
-  check_tetrahedra(labels, options);
-  std::vector<LabelField> fields;
-  for (const int label : labels) fields.emplace_back(volume, label, options.progress);
-  const Eigen::Affine3d to_voxel = volume.index_to_ras_mm.inverse();
-  const double voxel_mm = std::cbrt(volume.voxel_volume_ml() * 1e3);
-  MesherSettings settings;
-  for (const LabelField& field : fields)
-    for (const Vec3& vertex : field.dense().vertices) settings.box.extend(vertex * 1e3);
-  settings.box.min().array() -= 2 * voxel_mm, settings.box.max().array() += 2 * voxel_mm;
-  settings.cell = options.cell_m * 1e3, settings.facet = options.cell_m * 1e3;
-  settings.facet_distance = options.facet_distance_voxel * voxel_mm;
-  settings.optimise = options.optimise;
-  report(options.progress, "filling with tetrahedra", -1);
-  const auto region = [&](const Vec3& place_mm) {
-    const Vec3 voxel = to_voxel * place_mm;
-    int best = 0;
-    double most = 0;
-    for (std::size_t n = 0; n < fields.size(); ++n)
-      if (const double value = fields[n].at(voxel); value > most) most = value, best = static_cast<int>(n + 1);
-    return best;
-  };
-  BuiltTetrahedra built;
-  built.mesh = meshed(region, settings);
-  if (built.mesh.tetrahedra.empty()) throw InputError("the cells are too large for this organ: choose smaller ones");
-  for (Vec3& node : built.mesh.nodes) node *= 1e-3;
-  for (auto& label : built.mesh.labels) label = labels[static_cast<std::size_t>(label - 1)];
-  for (auto& t : built.mesh.tetrahedra)
-    if (six_cell_volumes(built.mesh, t) < 0) std::swap(t[2], t[3]);
-  double voxels = 0;
-  for (const LabelField& field : fields) voxels += static_cast<double>(field.voxels());
-  const double shift = correct_tetrahedra_volume(built.mesh, voxels * volume.voxel_volume_ml() * 1e-6);
-  built.notes.push_back(shift == 0 ? "the outer nodes were not moved: the volume error stays"
-                                   : "moved the outer nodes by " + std::to_string(shift * 1e3) +
-                                         " mm along the normals to keep the volume");
-  built.facts = facts_of(built.mesh, fields, volume.voxel_volume_ml() * 1e-6);
-  if (built.facts.min_dihedral_deg < 10)
-    built.notes.push_back("some tetrahedra have a dihedral angle under 10 degrees: smaller cells help");
+double expected_tetrahedra(const std::vector<const TriangleSurface*>& organs, double cell_m) {
+  constexpr double kVolumeEach = 0.22, kFacetArea = 0.5;  // of the cube and the square of the radius; fitted
+  double sum = 0;
+  for (const TriangleSurface* organ : organs)
+    sum += organ->volume_m3() / (kVolumeEach * std::pow(cell_m, 3)) +
+           surface_area_m2(*organ) / (kFacetArea * std::pow(facet_radius(*organ, cell_m), 2));
+  return sum;
+}
+
+BuiltTetrahedra make_tetrahedra(const std::vector<const TriangleSurface*>& organs, const TetrahedraOptions& options) {
+  check_size(organs, options.cell_m);
+  const OrganRegions regions(organs);
+  const std::vector<double> targets = regions.volumes();
+  BuiltTetrahedra built{refined(organs, regions, options), {}};
+  std::vector<double> distances;
+  for (const TriangleSurface* organ : organs) distances.push_back(facet_distance(*organ, options.cell_m));
+  const std::vector<BorderFace> border = border_faces(built.mesh);
+  const std::vector<double> reach = reach_of_nodes(built.mesh, border, distances);
+  correct_volumes(built.mesh, border, targets, distances);
+  for (int round = 0; round < kRounds; ++round) {  // each undoes a little of the other's work
+    improve_angles(built.mesh, reach, kWanted);
+    correct_volumes(built.mesh, border, targets, distances);
+  }
+  built.facts = facts_of(built.mesh, border, targets, organs);
   return built;
 }
 

@@ -1,7 +1,9 @@
-// A tetrahedral mesh of one or several labels for reference computations and export.
+// Tetrahedral meshes of closed surfaces, one region an organ, for reference computations and export.
 //
-// CGAL Mesh_3 (Delaunay refinement, then perturbation and exudation of slivers) on the argmax of the labels' smoothed
-// fields. RAS, metres. Same input, same bytes. Thread: any, not the tick.
+// Delaunay refinement on the regions that the surfaces bound (tetrahedra_mesher.h, organ_regions.h). Organs that touch
+// share nodes and faces: one region begins where the other ends. Then border nodes move by less than a facet's distance
+// until every organ has its volume, and nodes until the flattest tetrahedra stand up (tetrahedra_angles.h). RAS,
+// metres. Same input, same bytes. Thread: any, not the tick.
 #pragma once
 
 #include <array>
@@ -9,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "tissue/imaging/labels/label_volume.h"
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/progress.h"
 
@@ -17,16 +18,19 @@ namespace trocar {
 
 struct TetrahedraOptions {
   double cell_m = 0.010;  ///< largest circumradius of a tetrahedron
-  double facet_distance_voxel =
-      0.4;               ///< how far surface facets may lie from the field's surface, in voxels; 0.35 to 0.5
-  bool optimise = true;  ///< perturb and exude
   Progress progress = {};
 };
 
 struct TetrahedraMesh {
   std::vector<Vec3> nodes;                              ///< m
   std::vector<std::array<std::int32_t, 4>> tetrahedra;  ///< positive volume
-  std::vector<std::int32_t> labels;                     ///< one a tetrahedron
+  std::vector<std::int32_t> labels;                     ///< one a tetrahedron: the organ, from 1
+};
+
+struct TetrahedraRegion {
+  std::size_t tetrahedra = 0;
+  double volume_ml = 0;
+  double volume_error_pct = 0;  ///< against the surface, less what smaller organs take of it
 };
 
 struct TetrahedraFacts {
@@ -34,24 +38,25 @@ struct TetrahedraFacts {
   double min_dihedral_deg = 0;
   double share_below_15 = 0;  ///< tetrahedra with a dihedral angle under 15 degrees
   double volume_ml = 0;
-  double volume_error_pct = 0;   ///< against the labels' voxels
-  double surface_rms_voxel = 0;  ///< boundary facets against the field's surface, sampled
-  double surface_max_voxel = 0;
+  double volume_error_pct = 0;  ///< the largest of the regions
+  double surface_rms_m = 0;     ///< borders of the regions against the surfaces, sampled
+  double surface_max_m = 0;
+  std::vector<TetrahedraRegion> regions;  ///< of label 1, 2, ...
 };
 
 struct BuiltTetrahedra {
   TetrahedraMesh mesh;
   TetrahedraFacts facts;
-  std::vector<std::string> notes;
 };
 
-/// @param labels numbers in the map; each becomes a subdomain
-/// @throws InputError when a label is absent or too small
-BuiltTetrahedra make_tetrahedra(const LabelVolume& volume, const std::vector<int>& labels,
-                                const TetrahedraOptions& options);
+/// How many there will be, within a factor of two: from volumes, areas and thicknesses alone.
+double expected_tetrahedra(const std::vector<const TriangleSurface*>& organs, double cell_m);
 
-/// Gmsh MSH 2.2, ASCII; physical and elementary tag are the label.
-std::string gmsh_text(const TetrahedraMesh& mesh);
+/// @param organs closed, outward; each becomes a region, numbered from 1. Where two overlap, the smaller one has the
+/// place: of an organ that smaller ones fill no tetrahedron comes out.
+/// @throws InputError: a size that is no length up to a metre, more tetrahedra than the readers take (kMaxTriangles).
+/// EnvironmentError: too little memory for them
+BuiltTetrahedra make_tetrahedra(const std::vector<const TriangleSurface*>& organs, const TetrahedraOptions& options);
 
 /// Smallest dihedral angle of a tetrahedron, degrees.
 double smallest_dihedral_deg(const TetrahedraMesh& mesh, std::size_t tetrahedron);

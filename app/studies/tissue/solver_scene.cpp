@@ -47,7 +47,7 @@ TetrahedraMesh fitted_tetrahedra(StiffPart stiff, double cell_m) {
   settings.box = Eigen::AlignedBox3d(-1.1 * kEllipsoidHalf, 1.1 * kEllipsoidHalf);
   settings.cell = cell_m;
   settings.facet = cell_m;
-  settings.facet_distance = cell_m / 10;
+  settings.facet_distances = {cell_m / 10, cell_m / 10};
   const auto region = [&](const Vec3& place) {
     if (!in_organ(place)) return 0;
     return stiffness_share(stiff, place) > 1 ? 2 : 1;

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -22,6 +24,19 @@ std::string exported(const std::string& organ, const fs::path& output, const std
   std::ostringstream out, err;
   EXPECT_EQ(organ_export({organ, output, format, kAssets}, out, err), 0);
   return out.str();
+}
+
+std::string exported_tetrahedra(const std::string& organ, const fs::path& output, double size_mm) {
+  std::ostringstream out, err;
+  EXPECT_EQ(organ_export({organ, output, "ply", kAssets, size_mm}, out, err), 0);
+  return out.str();
+}
+
+std::string refused_tetrahedra(const fs::path& output, double size_mm) {
+  std::ostringstream out, err;
+  return test::message_of<InputError>([&] {
+    organ_export({"phantom-gallbladder", output, "ply", kAssets, size_mm}, out, err);
+  });
 }
 
 std::string refused(const std::string& organ, const fs::path& output, const std::string& format = "ply") {
@@ -44,7 +59,7 @@ double moved(const TriangleSurface& a, const TriangleSurface& b) {
 TEST(OrganExport, ComesBackAtItsPlaceFromEveryFormatWithoutBeingTold) {
   const test::TemporaryFolder folder;
   const Organ organ = load_organ(find_organ("phantom-gallbladder", kAssets));
-  for (const char* format : {"ply", "stl", "obj", "vtk", "glb"}) {
+  for (const char* format : {"ply", "stl", "obj", "vtk", "vtp", "glb"}) {
     const fs::path file = folder / (std::string("g.") + format);
     EXPECT_EQ(exported("phantom-gallbladder", file), file.string() + "\n");
     const ImportedSurface back = import_surface(file, "");
@@ -83,11 +98,76 @@ TEST(OrganExport, ASceneIsOneFileOfNamedPartsOrAFolder) {
   EXPECT_LT(moved(scene.adjacent.front().surface, import_surface(folder / "one.ply", "").surface), 1e-6);
 }
 
+/// Corners of the tetrahedra, by region and in their order: readers number the nodes as they please.
+std::map<std::string, std::vector<Vec3>> corners_of(const ImportedTetrahedra& mesh) {
+  std::map<std::string, std::vector<Vec3>> corners;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (const std::int32_t node : mesh.tetrahedra[t])
+      corners[mesh.parts[static_cast<std::size_t>(mesh.regions[t])].name].push_back(
+          mesh.vertices[static_cast<std::size_t>(node)]);
+  return corners;
+}
+
+double moved(const ImportedTetrahedra& a, const ImportedTetrahedra& b) {
+  const auto ours = corners_of(a), theirs = corners_of(b);
+  double most = 0;
+  for (const auto& [name, corners] : ours) {
+    if (!theirs.contains(name) || theirs.at(name).size() != corners.size()) return INFINITY;
+    for (std::size_t n = 0; n < corners.size(); ++n) most = std::max(most, (corners[n] - theirs.at(name)[n]).norm());
+  }
+  return most;
+}
+
+/// Volumes of the regions by name, mL.
+std::map<std::string, double> volumes_of(const ImportedTetrahedra& mesh) {
+  std::map<std::string, double> volumes;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto at = [&](std::size_t n) -> const Vec3& {
+      return mesh.vertices[static_cast<std::size_t>(mesh.tetrahedra[t][n])];
+    };
+    const std::string& name = mesh.parts[static_cast<std::size_t>(mesh.regions[t])].name;
+    volumes[name] += (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6 * 1e6;
+  }
+  return volumes;
+}
+
+TEST(OrganExport, TetrahedraOfASceneComeBackWithNodesRegionsAndVolumes) {
+  const test::TemporaryFolder folder;
+  const Organ scene = load_organ(find_organ("phantom-abdomen", kAssets));
+  EXPECT_CONTAINS(exported_tetrahedra("phantom-abdomen", folder / "a.msh", 12), "volume within 0.0");
+  exported_tetrahedra("phantom-abdomen", folder / "a.vtu", 12);
+  SurfaceImportOptions metres;
+  metres.unit = "m", metres.frame = "RAS";
+  const ImportedTetrahedra msh = read_tetrahedra(folder / "a.msh", metres);
+  const ImportedTetrahedra vtu = read_tetrahedra(folder / "a.vtu", {});
+  EXPECT_EQ(vtu.unit, "mm");
+  EXPECT_EQ(vtu.frame, "RAS");
+  EXPECT_EQ(msh.vertices.size(), vtu.vertices.size());
+  EXPECT_LT(moved(msh, vtu), 1e-6);
+  const auto volumes = volumes_of(msh);
+  EXPECT_EQ(volumes.size(), scene.adjacent.size() + 1);
+  for (const auto& [name, ml] : volumes_of(vtu)) EXPECT_NEAR(volumes.at(name), ml, 1e-4 * ml) << name;
+  for (const Organ& organ : scene.adjacent)  // what the liver holds of others is not the liver's
+    EXPECT_NEAR(volumes.at(organ.name), organ.surface.volume_m3() * 1e6, 0.02 * volumes.at(organ.name)) << organ.name;
+}
+
+TEST(OrganExport, TetrahedraOfAWrongSizeOrFormatAreRefused) {
+  const test::TemporaryFolder folder;
+  for (const double size : {0.0, -1.0, 1e9, std::nan("")})
+    EXPECT_CONTAINS(refused_tetrahedra(folder / "a.msh", size), "up to 1000 mm");
+  EXPECT_CONTAINS(refused_tetrahedra(folder / "a.msh", 0.01), "GB of memory; at most 5 million");
+  EXPECT_CONTAINS(refused_tetrahedra(folder / "a.ply", 8), "there are feb, msh, vtu");
+  EXPECT_CONTAINS(refused_tetrahedra(folder / "a", 8), "go into one file");
+  EXPECT_CONTAINS(refused("phantom-gallbladder", folder / "a.msh"), "give their size");
+  EXPECT_CONTAINS(refused_tetrahedra(folder.write("b.msh", "mine"), 8), "is there already");
+  EXPECT_FALSE(fs::exists(folder / "a.msh"));
+}
+
 TEST(OrganExport, NothingIsOverwrittenAndWhatCannotBeIsSaid) {
   const test::TemporaryFolder folder;
   const fs::path there = folder.write("g.ply", "mine");
   EXPECT_NE(refused("phantom-gallbladder", there).find("g.ply: is there already"), std::string::npos);
-  EXPECT_NE(refused("phantom-gallbladder", folder / "g.xyz").find("there are glb, obj, ply, stl, vtk"),
+  EXPECT_NE(refused("phantom-gallbladder", folder / "g.xyz").find("there are glb, obj, ply, stl, vtk, vtp"),
             std::string::npos);
   EXPECT_NE(refused("phantom-gallbladder", folder / "many", "step").find("--format: \"step\""), std::string::npos);
   EXPECT_NE(refused("phantom-abdomen", folder / "a.stl").find("holds one organ, and here are 18"), std::string::npos);

@@ -142,30 +142,34 @@ TEST(VolumeMeshes, TheLatticeOfABoxFillsItAndItsFactsAreInTheManifest) {
   }
 }
 
-TEST(VolumeMeshes, NothingIsMadeUnaskedAndTetrahedraNeedLabels) {
+TEST(VolumeMeshes, NothingIsMadeUnaskedAndTetrahedraNeedNoLabels) {
   const TriangleSurface box = test::box(Vec3::Zero(), Vec3(0.05, 0.04, 0.03));
   OrganManifest manifest;
   EXPECT_TRUE(volume_meshes({}, "box", box, {}, manifest).empty());
   EXPECT_FALSE(manifest.lattice || manifest.tetrahedra);
   OrganImportOptions options;
   options.tetrahedra_mm = 5;
+  EXPECT_EQ(volume_meshes(options, "box", box, {}, manifest).size(), 1U);
+  EXPECT_NEAR(manifest.tetrahedra->volume_error_pct, 0, 0.1);
+  options.tetrahedra_mm = std::nan("");
   EXPECT_CONTAINS(test::message_of<InputError>([&] { volume_meshes(options, "box", box, {}, manifest); }),
-                  "made from labels");
+                  "above 0 and up to 1000 mm");
 }
 
-TEST(VolumeMeshes, TetrahedraOfABallCarryItsLabelAndVolume) {
-  const LabelVolume ball = test::ball_volume(20, 2, {0, 0, 0}, 14);
+TEST(VolumeMeshes, TetrahedraOfABallCarryItsNameAndVolume) {
   OrganImportOptions options;
   options.tetrahedra_mm = 6;
   OrganManifest manifest;
-  const auto files = volume_meshes(options, "ball", test::sphere(Vec3::Zero(), 0.014, 3), {&ball, 1}, manifest);
+  manifest.name = "ball";
+  const auto files = volume_meshes(options, "ball", test::sphere(Vec3::Zero(), 0.014, 3), {}, manifest);
   ASSERT_EQ(files.size(), 1U);
   EXPECT_EQ(files[0].name, "ball.msh");
   EXPECT_EQ(files[0].bytes.find("$MeshFormat\n2.2"), 0U);
   EXPECT_CONTAINS(files[0].bytes, "$Nodes\n" + std::to_string(manifest.tetrahedra->nodes) + "\n");
   EXPECT_EQ(manifest.tetrahedra->sha256, digest::of_bytes(files[0].bytes));
-  EXPECT_GT(manifest.tetrahedra->worst, 0) << "smallest dihedral angle";
-  EXPECT_LT(std::abs(manifest.tetrahedra->volume_error_pct), 5);
+  EXPECT_CONTAINS(files[0].bytes, "3 1 \"ball\"");
+  EXPECT_GT(manifest.tetrahedra->worst, 12) << "smallest dihedral angle";
+  EXPECT_LT(std::abs(manifest.tetrahedra->volume_error_pct), 0.1);
 }
 
 /// A bare map that marks a cube of 8 voxels of each number.

@@ -123,21 +123,16 @@ TEST_F(GoldenPath, LiverLatticeAndVesselGraph) {
   EXPECT_LT(aorta.branchings(), 6U);
 }
 
-TEST_F(GoldenPath, TetrahedraOfEveryGoldenOrganHaveNoDihedralAngleUnderTenDegrees) {
-  for (const std::string name : {"gallbladder", "spleen", "kidney_left", "kidney_right", "urinary_bladder", "liver"}) {
-    const BuiltTetrahedra built = make_tetrahedra(mask(name), {1}, {.cell_m = 0.010});
-    EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.5) << name;
-    EXPECT_GE(built.facts.min_dihedral_deg, 10) << name;
-    EXPECT_LE(built.facts.surface_rms_voxel, 0.35) << name;
-    EXPECT_LE(built.facts.surface_max_voxel, 1) << name;
-    for (std::size_t t = 0; t < built.mesh.tetrahedra.size(); ++t)
-      ASSERT_GE(smallest_dihedral_deg(built.mesh, t), 10) << name << ' ' << t;
-  }
-}
-
-TEST_F(GoldenPath, SmallerTetrahedraKeepTenDegreesToo) {
-  for (const std::string name : {"gallbladder", "spleen"})
-    EXPECT_GE(make_tetrahedra(mask(name), {1}, {.cell_m = 0.006}).facts.min_dihedral_deg, 10) << name;
+TEST_F(GoldenPath, TetrahedraOfEveryGoldenOrganStandUpAndKeepTheVolume) {
+  for (const std::string name : {"gallbladder", "spleen", "kidney_left", "kidney_right", "urinary_bladder", "liver"})
+    for (const double cell : {0.010, 0.006}) {
+      const TriangleSurface surface = compile_label(mask(name), 1, {6000}).surface;
+      const BuiltTetrahedra built = make_tetrahedra({&surface}, {.cell_m = cell});
+      EXPECT_NEAR(built.facts.volume_error_pct, 0, 0.1) << name << ' ' << cell;
+      EXPECT_GE(built.facts.min_dihedral_deg, 14) << name << ' ' << cell;
+      EXPECT_LE(built.facts.surface_rms_m, 0.07 * cell) << name << ' ' << cell;
+      EXPECT_LE(built.facts.surface_max_m, 0.3 * cell) << name << ' ' << cell;
+    }
 }
 
 }  // namespace

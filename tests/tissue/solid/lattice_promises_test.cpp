@@ -18,7 +18,7 @@
 #include "tissue/mesh/surface/vessel_graph.h"
 #include "tissue/organ/scene_compiler.h"
 #include "tissue/solid/lattice.h"
-#include "tissue/solid/tetrahedra.h"
+#include "tissue/solid/tetrahedra_file.h"
 
 namespace trocar::lattice_promises_test {
 namespace {
@@ -203,7 +203,7 @@ TEST(TetrahedraText, IsReadBackNodeByNodeAndElementByElement) {
     mesh.tetrahedra.push_back(corners);
     mesh.labels.push_back(static_cast<std::int32_t>(1 + random() % 3));
   }
-  std::istringstream in(gmsh_text(mesh));
+  std::istringstream in(gmsh_text(mesh, {}));
   std::string word;
   std::size_t count = 0, number = 0;
   while (in >> word && word != "$Nodes") continue;
@@ -238,8 +238,8 @@ TEST(DihedralAngles, OfTheCornerOfACubeAndUnderEveryRenumbering) {
 }
 
 TEST(TetrahedraOfABall, FactsAreThoseOfTheMesh) {
-  const LabelVolume volume = test::ball_volume(18, 2, {1, 0, -1}, 13);
-  const BuiltTetrahedra built = make_tetrahedra(volume, {1}, {.cell_m = 0.008});
+  const TriangleSurface ball = test::sphere(Vec3(0.001, 0, -0.001), 0.013, 3);
+  const BuiltTetrahedra built = make_tetrahedra({&ball}, {.cell_m = 0.008});
   EXPECT_EQ(built.facts.nodes, built.mesh.nodes.size());
   EXPECT_EQ(built.facts.tetrahedra, built.mesh.tetrahedra.size());
   double sum = 0, smallest = 180;

@@ -10,6 +10,7 @@
 #include <assimp/Exporter.hpp>
 
 #include "haptics/input_error.h"
+#include "tissue/mesh/files/vtk_xml_text.h"
 
 namespace trocar {
 namespace {
@@ -103,6 +104,17 @@ std::string vtk_bytes(const std::vector<SurfacePartOut>& parts) {
   return text.str();
 }
 
+std::string vtp_bytes(const std::vector<SurfacePartOut>& parts) {
+  const TriangleSurface& surface = *parts.front().surface;
+  const auto [corners, ends] = vtk_xml_cells(surface.triangles);
+  return vtk_xml_text({.type = "PolyData",
+                       .counts = "NumberOfPolys=\"" + std::to_string(surface.triangles.size()) + "\"",
+                       .credit = parts.front().comment,
+                       .points_m = &surface.vertices,
+                       .arrays = "<Polys>\n" + vtk_xml_array("Int32", "connectivity", corners) +
+                                 vtk_xml_array("Int32", "offsets", ends) + "</Polys>\n"});
+}
+
 /// A mesh in metres with X to the left, Y up, Z to the front.
 aiMesh* gltf_mesh(const SurfacePartOut& part) {
   auto* mesh = new aiMesh;
@@ -153,11 +165,9 @@ std::string glb_bytes(const std::vector<SurfacePartOut>& parts) {
 }  // namespace
 
 const std::map<std::string, SurfaceFormat>& written_formats() {
-  static const std::map<std::string, SurfaceFormat> kFormats{{"ply", {ply_bytes, false}},
-                                                             {"stl", {stl_bytes, false}},
-                                                             {"obj", {obj_bytes, true}},
-                                                             {"vtk", {vtk_bytes, false}},
-                                                             {"glb", {glb_bytes, true}}};
+  static const std::map<std::string, SurfaceFormat> kFormats{{"ply", {ply_bytes, false}}, {"stl", {stl_bytes, false}},
+                                                             {"obj", {obj_bytes, true}},  {"vtk", {vtk_bytes, false}},
+                                                             {"vtp", {vtp_bytes, false}}, {"glb", {glb_bytes, true}}};
   return kFormats;
 }
 

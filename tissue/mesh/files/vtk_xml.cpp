@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "haptics/input_error.h"
 #include "tissue/mesh/files/surface_file.h"
@@ -18,6 +19,8 @@
 
 namespace trocar {
 namespace {
+
+constexpr const char* kRegions = "CellData/region";
 
 struct XmlArray {
   NumberType type = NumberType::kNone;
@@ -41,7 +44,7 @@ Attributes attributes_of(const XML_Char** pairs) {
 }
 
 bool is_section(const std::string& name) {
-  return name == "Points" || name == "Polys" || name == "Strips" || name == "Cells";
+  return name == "Points" || name == "Polys" || name == "Strips" || name == "Cells" || name == "CellData";
 }
 
 /// What the parser gathers; a failure is kept and stops it, for no exception may cross the C library.
@@ -50,7 +53,7 @@ class XmlGatherer {
   bool grid = false;
   VtkXmlPacking packing;
   std::vector<XmlPiece> pieces;
-  std::optional<XmlArray> space;  ///< field array "SPACE" of 3D Slicer: letters as numbers
+  std::map<std::string, XmlArray> fields;  ///< SPACE of 3D Slicer, UNIT and REGIONS of ours: letters as numbers
   std::string failure;
 
   void start(const std::string& name, const Attributes& attributes) {
@@ -61,8 +64,9 @@ class XmlGatherer {
     }
     if (is_section(name) || name == "FieldData") section_ = name;
     if (section_ == "FieldData") {
-      if ((name == "Array" || name == "DataArray") && value(attributes, "Name") == "SPACE")
-        fill(space.emplace(), attributes);
+      const std::string field = value(attributes, "Name");
+      if ((name == "Array" || name == "DataArray") && (field == "SPACE" || field == "UNIT" || field == "REGIONS"))
+        fill(fields[field], attributes);
       return;
     }
     if (name == "DataArray" && !section_.empty() && !pieces.empty()) array(attributes);
@@ -96,6 +100,7 @@ class XmlGatherer {
 
   void array(const Attributes& attributes) {
     const std::string name = section_ == "Points" ? section_ : section_ + "/" + value(attributes, "Name");
+    if (section_ == "CellData" && name != kRegions) return;
     fill(pieces.back().arrays[name], attributes);
   }
 
@@ -181,14 +186,29 @@ class PieceReader {
     add_strips(checked_cells(piece, "Strips", surface.vertices.size()), surface, file_);
   }
 
-  /// Letters of an array of strings, up to the 0 behind the first.
-  std::string letters_of(const XmlArray& array) const {
+  /// An array of strings, each up to its 0.
+  std::vector<std::string> strings_of(const XmlArray& array) const {
     std::string letters;
     if (array.format != "ascii") letters = bytes(array);
     if (array.format == "ascii")
-      for (TextScanner text(array.text, file_); !text.at_end() && letters.size() < kMaxNameBytes;)
+      for (TextScanner text(array.text, file_); !text.at_end() && letters.size() < kMaxParts * kMaxNameBytes;)
         letters += static_cast<char>(text.whole("letter of a field", 0, 255));
-    return letters.substr(0, letters.find('\0'));
+    std::vector<std::string> strings;
+    std::istringstream lines(letters);
+    for (std::string one; strings.size() < kMaxParts && std::getline(lines, one, '\0');) strings.push_back(one);
+    return strings;
+  }
+
+  /// Of each cell, as its array "region" counts the names. @throws InputError: a number without a name
+  std::vector<std::int32_t> regions_of(const XmlPiece& piece, std::size_t names) const {
+    std::vector<std::int32_t> regions;
+    for (const std::int64_t region : wholes(piece, kRegions)) {
+      if (region < 1 || static_cast<std::size_t>(region) > names)
+        throw InputError(file_ + ": a cell is of region " + std::to_string(region) + ", but there are " +
+                         std::to_string(names) + " names");
+      regions.push_back(static_cast<std::int32_t>(region - 1));
+    }
+    return regions;
   }
 
  private:
@@ -285,7 +305,16 @@ SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file) {
   if (gatherer.pieces.empty()) throw InputError(file + ": holds no piece");
   const PieceReader reader(gatherer, appended, file);
   SurfaceFile result;
-  if (gatherer.space) take_space(reader.letters_of(*gatherer.space), result, file);
+  const auto field = [&](const char* name) {
+    const auto found = gatherer.fields.find(name);
+    return found == gatherer.fields.end() ? std::vector<std::string>{} : reader.strings_of(found->second);
+  };
+  if (gatherer.fields.contains("SPACE")) {
+    const auto space = field("SPACE");
+    take_space(space.empty() ? "" : space.front(), result, file);
+  }
+  if (const auto unit = field("UNIT"); !unit.empty()) take_comment("UNIT=" + unit.front(), "the field UNIT", result);
+  const std::vector<std::string> regions = field("REGIONS");
   std::size_t vertices = 0, triangles = 0;
   for (std::size_t n = 0; n < gatherer.pieces.size(); ++n) {
     const std::string name = gatherer.pieces.size() == 1 ? "" : "piece " + std::to_string(n);
@@ -297,6 +326,15 @@ SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file) {
     result.tetrahedra.region_names.push_back(name.empty() ? "tetrahedra" : name);
     shift_tetrahedra(result.tetrahedra, first, part.surface, static_cast<std::int32_t>(n));
     result.parts.push_back(std::move(part));
+  }
+  if (!regions.empty() && gatherer.pieces.size() == 1) {
+    FileTetrahedra& mesh = result.tetrahedra;
+    auto of_cells = reader.regions_of(gatherer.pieces.front(), regions.size());
+    if (of_cells.size() == mesh.tetrahedra.size() && !of_cells.empty()) {  // else some cells are no tetrahedra
+      mesh.regions = std::move(of_cells);
+      mesh.region_names.clear();
+      for (const std::string& name : regions) mesh.region_names.push_back(printable(name));
+    }
   }
   return result;
 }
