@@ -6,6 +6,7 @@
 #include <set>
 
 #include "haptics/input_error.h"
+#include "scenarios/files/strict_toml.h"
 #include "tissue/imaging/labels/label_choice.h"
 #include "tissue/imaging/labels/label_mask.h"
 #include "tissue/imaging/labels/label_table.h"
@@ -54,6 +55,18 @@ bool names_one_label(const LabelMap& map, const std::string& name) {
                             }) == 1;
 }
 
+/// Why --name, which takes a label where there are several, took none.
+std::string not_called(const LabelMap& map, const std::string& name) {
+  if (name.empty()) return "";
+  std::vector<std::string> names;
+  for (const Segment& segment : map.segments) names.push_back(segment.name);
+  const auto alike = std::count_if(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
+    return folded_name(segment.name) == folded_name(name);
+  });
+  if (alike > 1) return "; " + std::to_string(alike) + " of them are called \"" + name + "\"";
+  return "; none of them is called \"" + name + "\"" + did_you_mean(name, names);
+}
+
 /// A label of a few voxels cannot be meshed; among all labels of a map it is left out instead of stopping the rest.
 bool too_small(const LabelMap& map, const Segment& segment, bool only_largest) {
   try {
@@ -80,6 +93,11 @@ void refuse_twice(const std::vector<ChosenLabel>& chosen, const std::string& fil
 
 }  // namespace
 
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? "" : "; did you mean \"" + near + "\"?";
+}
+
 std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const LabelMap& map, const std::string& file,
                                        std::vector<std::string>& decisions) {
   const NamedTable named = named_table(options.label_table);
@@ -100,7 +118,7 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
   } else if (options.label.empty()) {
     const bool by_name = map.segments.size() > 1 && names_one_label(map, options.name);
     if (map.segments.size() > 1 && !by_name)
-      throw InputError(file + ": holds labels " + listed_segments(map, named.table) +
+      throw InputError(file + ": holds labels " + listed_segments(map, named.table) + not_called(map, options.name) +
                        ": say which with --label, or --all");
     chosen.push_back(choose(by_name ? options.name : ""));
   } else {

@@ -16,6 +16,9 @@ struct ChosenLabel {
   std::string table;  ///< that gave the name; "" when the file did, or nothing
 };
 
+/// "; did you mean "liver"?" where a known word is near, else nothing.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
+
 /// --name takes the label that the file calls so, where --label says nothing.
 /// @param file of the map, for messages. @param decisions what was left out, as sentences
 /// @throws InputError naming file and option: unknown or ambiguous label, table that does not exist

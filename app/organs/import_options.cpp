@@ -122,7 +122,9 @@ void add_organ_import(CLI::App& parent, CommandAction& chosen) {
       ->check(CLI::Range(1.0, 100.0));
   import->add_option("--tetrahedra", c.import.tetrahedra_mm, "Also tetrahedra of this size, mm")
       ->check(CLI::Range(1.0, 100.0));
-  import->add_option("--name", c.import.name, "Name of the organ or the scene; takes the label or file of that name");
+  import->add_option(
+      "--name", c.import.name,
+      "Of several labels or files the one called so; with --all the scene's name; of one label its name");
   import->add_option("--material", c.import.material,
                      "Material (default: by the organ's name); in a scene of the labels without a name");
   import->add_option("--modality", c.import.modality, "CT or MR");

@@ -90,16 +90,14 @@ std::vector<std::string> wanted_words(const OrganImportOptions& options) {
   return options.name.empty() ? std::vector<std::string>{} : std::vector<std::string>{options.name};
 }
 
-/// One mask an organ, in files of their own. --name takes one of them where a file is called so; otherwise it names the
-/// scene.
+/// One mask an organ, in files of their own.
 bool read_masks(const OrganImportOptions& options, const std::optional<OrganFiles>& given, ImportSource& source) {
   std::optional<OrganFiles> of_labels;
   if (!options.labels.empty()) of_labels = organ_files({options.labels}, options.progress);
   const std::optional<OrganFiles>& files = options.labels.empty() ? given : of_labels;
   if (!files || files->volumes.empty()) return false;
-  std::vector<std::string> wanted = wanted_words(options);
-  if (options.label.empty() && !holds_name(files->volumes, options.name)) wanted.clear();
-  CombinedMasks masks = combined_masks(*files, wanted, reading_of(options), options.progress);
+  CombinedMasks masks =
+      combined_masks(*files, files->asked(files->volumes, options), reading_of(options), options.progress);
   source.map = std::move(masks.map);
   source.origin = std::move(masks.origin);
   if (!source.image) source.image = std::move(masks.image);

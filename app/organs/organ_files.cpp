@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 
+#include "app/organs/chosen_labels.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/segment_layers.h"
@@ -106,6 +109,17 @@ SegmentMask mask_of_label(const LabelVolume& volume, int number) {
   return mask;
 }
 
+/// "24 x 24 x 24 voxels of 3 x 3 x 3 mm from -35, 12, 100 mm RAS"
+std::string described(const VoxelGrid& grid) {
+  const Eigen::Vector3d step = grid.index_to_ras_mm.linear().colwise().norm();
+  const Eigen::Vector3d from = grid.index_to_ras_mm.translation();
+  std::ostringstream text;
+  text << std::setprecision(6) << grid.size[0] << " x " << grid.size[1] << " x " << grid.size[2] << " voxels of "
+       << step.x() << " x " << step.y() << " x " << step.z() << " mm from " << from.x() << ", " << from.y() << ", "
+       << from.z() << " mm RAS";
+  return text.str();
+}
+
 /// Lays the masks into layers one after the other.
 class MaskGatherer {
  public:
@@ -113,7 +127,7 @@ class MaskGatherer {
 
   void add(const OrganFile& file, LabelMap&& map) {
     if (map.segments.empty()) {
-      ++empty_;
+      empty_.push_back(file.name);
       return;
     }
     const LabelVolume& first = map.layers.front();
@@ -122,8 +136,9 @@ class MaskGatherer {
       grid_ = grid_of(first), grid_file_ = file.path.filename().string();
     }
     if (!same_grid(grid_, grid_of(first)))
-      throw InputError(file.path.string() + ": has another grid than " + grid_file_ +
-                       ": masks of one scene lie on one grid; import it by itself, or export all on one grid");
+      throw InputError(file.path.string() + ": lies on another grid (" + described(grid_of(first)) + ") than " +
+                       grid_file_ + " (" + described(grid_) +
+                       "): masks of one scene lie on one grid; import it by itself, or export all on one grid");
     const bool several = map.segments.size() > 1;
     for (Segment segment : map.segments) {
       if (several && segment.name.empty())
@@ -151,7 +166,9 @@ class MaskGatherer {
   CombinedMasks take() {
     if (!layers_) throw InputError(input_ + ": holds no mask that marks a voxel");
     combined_.map = layers_->take();
-    if (empty_ > 0) notes_.push_back(std::to_string(empty_) + " masks mark no voxel and were left out");
+    if (!empty_.empty())
+      notes_.push_back(std::to_string(empty_.size()) + (empty_.size() == 1 ? " mask marks" : " masks mark") +
+                       " no voxel and were left out: " + listed_words(empty_, empty_.size()));
     combined_.map.notes = std::move(notes_);
     for (LabelVolume& layer : combined_.map.layers) layer.notes = combined_.map.notes;
     return std::move(combined_);
@@ -162,17 +179,27 @@ class MaskGatherer {
   std::optional<SegmentLayers> layers_;
   VoxelGrid grid_;
   CombinedMasks combined_;
-  std::vector<std::string> notes_;
-  std::size_t empty_ = 0;
+  std::vector<std::string> notes_, empty_;
   int number_ = 0;
 };
 
-}  // namespace
-
-bool holds_name(const std::vector<OrganFile>& files, const std::string& name) {
-  return std::any_of(files.begin(), files.end(),
-                     [&](const OrganFile& file) { return folded_name(file.name) == folded_name(name); });
+/// Called so, in any spelling of case.
+std::vector<OrganFile>::const_iterator find_file(const std::vector<OrganFile>& files, const std::string& name) {
+  const auto exact = std::find_if(files.begin(), files.end(), [&](const OrganFile& file) { return file.name == name; });
+  if (exact != files.end()) return exact;
+  return std::find_if(files.begin(), files.end(),
+                      [&](const OrganFile& file) { return folded_name(file.name) == folded_name(name); });
 }
+
+std::string no_such_file(const OrganFiles& all, const std::vector<OrganFile>& files, const std::string& name) {
+  constexpr std::size_t kListed = 20;
+  std::vector<std::string> names;
+  for (const OrganFile& file : files) names.push_back(file.name);
+  return all.input + ": holds no file of \"" + name + "\"" + did_you_mean(name, names) + "; it holds " +
+         listed_words(names, kListed);
+}
+
+}  // namespace
 
 std::string plain_stem(const fs::path& path) {
   const std::string file = path.filename().string();
@@ -181,22 +208,23 @@ std::string plain_stem(const fs::path& path) {
   return path.stem().string();
 }
 
+std::vector<std::string> OrganFiles::asked(const std::vector<OrganFile>& files,
+                                           const OrganImportOptions& options) const {
+  if (!options.label.empty() || options.all || options.name.empty()) return options.label;
+  if (find_file(files, options.name) != files.end()) return {options.name};
+  if (files.size() < 3) return {};  // an image and its mask, which --name names
+  throw InputError(no_such_file(*this, files, options.name) + "; to call the scene of all of them so: --all --name " +
+                   options.name);
+}
+
 std::vector<OrganFile> OrganFiles::chosen(const std::vector<OrganFile>& files,
                                           const std::vector<std::string>& wanted) const {
   if (wanted.empty()) return files;
   std::vector<OrganFile> found;
   for (const std::string& word : wanted) {
-    const auto file = std::find_if(files.begin(), files.end(), [&](const OrganFile& one) {
-      return one.name == word || folded_name(one.name) == folded_name(word);
-    });
-    if (file != files.end()) {
-      found.push_back(*file);
-      continue;
-    }
-    constexpr std::size_t kListed = 20;
-    std::vector<std::string> names;
-    for (const OrganFile& one : files) names.push_back(one.name);
-    throw InputError(input + ": holds no file of \"" + word + "\"; it holds " + listed_words(names, kListed));
+    const auto file = find_file(files, word);
+    if (file == files.end()) throw InputError(no_such_file(*this, files, word));
+    found.push_back(*file);
   }
   return found;
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/organs/import_options.h"
 #include "tissue/imaging/dicom/unpacked_zip.h"
 #include "tissue/imaging/labels/label_map.h"
 #include "tissue/imaging/volumes/image_volume.h"
@@ -25,9 +26,6 @@ struct OrganFile {
   std::string name;  ///< without folder and endings: "kidney_left" of "kidney_left.nii.gz"
 };
 
-/// Whether one of the files is called so, in any spelling of case.
-bool holds_name(const std::vector<OrganFile>& files, const std::string& name);
-
 struct OrganFiles {
   std::string input;                   ///< as it was given, for messages
   std::vector<OrganFile> volumes;      ///< by name
@@ -35,6 +33,10 @@ struct OrganFiles {
   std::size_t passed_over = 0;         ///< files of other kinds
   std::unique_ptr<UnpackedZip> zip{};  ///< keeps the unpacked files
 
+  /// Names of the files that are asked for, nothing for all: by --label; without it and --all by --name, which of
+  /// several files must be one.
+  /// @throws InputError listing the names when none of three or more files is called so
+  std::vector<std::string> asked(const std::vector<OrganFile>& files, const OrganImportOptions& options) const;
   /// What is asked for by name; all when nothing is.
   /// @throws InputError listing the names when one of them is not there
   std::vector<OrganFile> chosen(const std::vector<OrganFile>& files, const std::vector<std::string>& wanted) const;

@@ -275,7 +275,7 @@ WrittenOrgans import_surface_scene(const OrganImportOptions& options, const Orga
 /// The surfaces of a folder, a zip or a list: one where --label or --name asks for one, else a scene.
 WrittenOrgans import_surfaces(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
   OrganImportOptions asked = options;
-  if (asked.label.empty() && holds_name(files.surfaces, options.name)) asked.label = {options.name};
+  asked.label = files.asked(files.surfaces, options);
   const std::vector<OrganFile> chosen = files.chosen(files.surfaces, asked.label);
   if (chosen.size() > 1 || options.output.ends_with(kOrganSetSuffix)) return import_surface_scene(asked, files, stem);
   asked.label.clear(), asked.all = false;
@@ -390,12 +390,13 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
 }
 
 /// Labels of an image, a map or several masks. Masks in files of their own are a scene of all of them unless some were
-/// asked for.
+/// asked for, by --label or --name.
 WrittenOrgans import_labels(const OrganImportOptions& options, const std::optional<OrganFiles>& masks,
                             const fs::path& stem) {
   ImportSource source = read_import_source(options, masks);
   OrganImportOptions asked = options;
-  if (!source.origin.empty() && options.label.empty() && source.map.segments.size() > 1) asked.all = true;
+  if (!source.origin.empty() && options.label.empty() && options.name.empty() && source.map.segments.size() > 1)
+    asked.all = true;
   if (asked.label_table.empty()) asked.label_table = source.map.table;
   std::vector<std::string> decisions = source.map.notes;
   if (source.image) append(decisions, source.image->notes);

@@ -61,6 +61,10 @@ TEST(ChosenLabels, NamesAreTakenInAnyCaseAndNameTakesOneLabel) {
   OrganImportOptions by_name;
   by_name.name = "liver";
   EXPECT_EQ(choose(by_name, map).labels.at(0).segment.number, 1);
+  by_name.name = "lyver";
+  EXPECT_CONTAINS(refusal(by_name, map), "none of them is called \"lyver\"; did you mean \"Liver\"?");
+  by_name.name = "liver";
+  EXPECT_CONTAINS(refusal(by_name, map_of({{0, 1, "Liver"}, {0, 2, "liver"}})), "2 of them are called \"liver\"");
 }
 
 TEST(ChosenLabels, ANameNeedsATable) {

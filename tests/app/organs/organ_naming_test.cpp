@@ -199,7 +199,7 @@ TEST(OrganFileSets, AFolderAndAZipOfMasksAreOneScene) {
   EXPECT_EQ(from_folder["organs"][0]["source"]["file"], "liver.nii.gz");
   EXPECT_EQ(from_folder["organs"][0]["source"]["label"], 1);
   EXPECT_EQ(from_folder["contacts"].size(), 1U) << "they lie against each other";
-  EXPECT_CONTAINS(from_folder["organs"][0]["repairs"].dump(), "2 masks mark no voxel");
+  EXPECT_CONTAINS(from_folder["organs"][0]["repairs"].dump(), "2 masks mark no voxel and were left out: brain, heart");
   trial.folder.write("masks.zip", zip_bytes(files));
   trial.options.input = (trial.folder / "masks.zip").string();
   EXPECT_EQ(trial.imported(), from_folder);
@@ -207,6 +207,13 @@ TEST(OrganFileSets, AFolderAndAZipOfMasksAreOneScene) {
   const Json one = trial.imported();
   EXPECT_EQ(one["name"], "spleen");
   EXPECT_GT(one["bbox_m"][1][2].get<double>(), 0.02);
+  trial.options.name = "splen";
+  EXPECT_CONTAINS(trial.refusal(),
+                  "no file of \"splen\"; did you mean \"spleen\"?; it holds brain, heart, liver, spleen");
+  EXPECT_CONTAINS(trial.refusal(), "--all --name splen");
+  trial.options.all = true;
+  EXPECT_EQ(trial.imported()["organs"].size(), 2U);
+  trial.options.all = false;
   trial.options.name.clear(), trial.options.label = {"kidney"};
   EXPECT_CONTAINS(trial.refusal(), "holds no file of \"kidney\"; it holds brain, heart, liver, spleen");
 }
@@ -217,7 +224,8 @@ TEST(OrganFileSets, MasksOfAnotherGridOrOfNothingAreRefused) {
   const LabelVolume other = test::ball_volume(20, 3, {0, 0, 0}, 20);
   trial.folder.write("b.nii.gz", nifti(other));
   trial.options.more_inputs = {(trial.folder / "b.nii.gz").string()};
-  EXPECT_CONTAINS(trial.refusal(), "has another grid than a.nii.gz");
+  EXPECT_CONTAINS(trial.refusal(), "b.nii.gz: lies on another grid (20 x 20 x 20 voxels of 3 x 3 x 3 mm");
+  EXPECT_CONTAINS(trial.refusal(), ") than a.nii.gz (24 x 24 x 24 voxels of 3 x 3 x 3 mm");
   trial.folder.write("b.nii.gz", "");
   EXPECT_CONTAINS(trial.refusal(), "b.nii.gz");
   trial.folder.write("a.nii.gz", nifti(halves(0, 0))), trial.folder.write("b.nii.gz", nifti(halves(0, 0)));

@@ -21,7 +21,7 @@ std::string known_modality(const std::string& text) {
 
 DicomKind kind_of(const DicomFile& file, const std::string& modality) {
   const std::string sop = file.data.text(tag::kSopClass);
-  const bool label_map = sop == "1.2.840.10008.5.1.4.1.1.66.7";  // refused by name where it is read
+  const bool label_map = sop == "1.2.840.10008.5.1.4.1.1.66.7";
   if (sop == "1.2.840.10008.5.1.4.1.1.66.4" || label_map || (sop.empty() && modality == "SEG"))
     return DicomKind::kSegmentation;
   if (sop == "1.2.840.10008.5.1.4.1.1.481.3" || (sop.empty() && modality == "RTSTRUCT"))
@@ -126,6 +126,11 @@ struct Check {
 
 }  // namespace
 
+bool compressed_with_loss(const DicomFile& file) {
+  const bool always = file.syntax->lossy && file.syntax->uid != "1.2.840.10008.1.2.4.91";
+  return always || file.data.text(tag::kLossy) == "01";
+}
+
 DicomImage checked_image(const DicomFile& file, const std::string& name, std::uint64_t source_size) {
   if (!file.damage.empty()) throw InputError(file.damage);
   DicomImage image;
@@ -135,8 +140,7 @@ DicomImage checked_image(const DicomFile& file, const std::string& name, std::ui
   check.coding(image);
   check.length(image, source_size);
   image.syntax = file.syntax;
-  image.lossy = file.syntax->uid != "1.2.840.10008.1.2.4.91" && file.syntax->lossy;
-  image.lossy = image.lossy || file.data.text(tag::kLossy) == "01";
+  image.lossy = compressed_with_loss(file);
   image.places = slice_places(file.data, image.frames, name);
   image.pixels = file.pixels;
   return image;

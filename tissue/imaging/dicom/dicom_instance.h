@@ -71,6 +71,13 @@ DicomInstance instance_of(const DicomFile& file, const std::filesystem::path& pa
 /// @throws InputError naming file and what is wrong
 DicomImage checked_image(const DicomFile& file, const std::string& name, std::uint64_t source_size);
 
+/// By its transfer syntax, which must be known, or by what it says of its past (JPEG 2000 may be either).
+bool compressed_with_loss(const DicomFile& file);
+
+/// The functional group macro of one frame: its own, else the shared one; nullptr when neither has it. Of an image
+/// without such groups (PS3.3 C.7.6.16) the data set itself.
+const DicomItem* frame_group(const DicomItem& data, std::size_t frame, DicomTag group);
+
 /// Places of the frames of a multi-frame image from its functional groups, or of a plain image from its own elements.
 /// @throws InputError naming file, frame and element
 std::vector<SlicePlace> slice_places(const DicomItem& data, int frames, const std::string& name);

@@ -103,6 +103,10 @@ std::string decode_batch(const std::vector<DicomPixels::Wish>& wishes, std::size
     const std::string name =
         image.frames > 1 ? instance.name + ": frame " + std::to_string(wishes[n].frame + 1) : instance.name;
     const std::string bytes = compressed_frame(source, image, wishes[n].frame, name);
+    if (image.syntax->coding == PixelCoding::kRle) {
+      all += decode_rle_frame(bytes, image, name);
+      continue;
+    }
     check_compressed_frame(bytes, image, name);
     all += decode_frame_gdcm(bytes, image, name);
   }

@@ -2,108 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "haptics/input_error.h"
-#include "tissue/imaging/dicom/dcmseg_frames.h"
 #include "tissue/imaging/dicom/dicom_catalogue.h"
+#include "tissue/imaging/dicom/dicom_pixels.h"
 #include "tissue/imaging/dicom/dicom_study.h"
-#include "tissue/imaging/dicom/dicom_tags.h"
 #include "tissue/imaging/dicom/even_planes.h"
 #include "tissue/imaging/dicom/segment_layers.h"
+#include "tissue/imaging/dicom/segmentation_header.h"
 
 namespace trocar {
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;  // of all frames: 128 MiB as bits
 constexpr double kSameFrameDirection = 2e-3, kSameFrameSpacing = 5e-4;
-
-struct Header {
-  int rows = 0, columns = 0, frames = 0;
-  bool fractional = false, compressed = false;
-  unsigned maximum = 1;
-  std::uint64_t offset = 0;  ///< of native pixels in `source`
-  std::unique_ptr<ByteSource> source;
-  std::vector<SlicePlace> places;
-
-  std::size_t pixels() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
-};
 
 [[noreturn]] void refuse(const DicomInstance& file, const std::string& what) {
   throw InputError(file.name + ": " + what);
 }
 
-void require_decodable(const DicomInstance& file, const DicomFile& elements) {
-  if (!elements.damage.empty()) throw InputError(elements.damage);
-  if (!elements.has_header)
-    refuse(file, "has no DICOM file header, so its transfer syntax is unknown: export the segmentation again");
-  if (elements.syntax == nullptr)
-    refuse(file, "is stored in a transfer syntax that is not in the DICOM standard's list");
-  if (elements.syntax->coding != PixelCoding::kNative && elements.syntax->coding != PixelCoding::kRle)
-    refuse(file, "is a segmentation stored as " + std::string(elements.syntax->name) +
-                     ", which cannot be decoded here: export it uncompressed");
-  if (!elements.pixels.present || elements.pixels.floating) refuse(file, "holds no pixel data");
-}
-
-void read_coding(Header& header, const DicomItem& data, const DicomInstance& file) {
-  const std::uint32_t bits = data.whole(tag::kBitsAllocated).value_or(0);
-  const std::string type = data.text(tag::kSegmentationType);
-  header.fractional = type == "FRACTIONAL";
-  if (type == "LABELMAP")
-    refuse(file, "is a segmentation of the kind LABELMAP, which is not read: export it as BINARY, or as NIfTI or NRRD");
-  if (type != "BINARY" && !header.fractional) refuse(file, "is neither a binary nor a fractional segmentation");
-  if (bits != (header.fractional ? 8U : 1U))
-    refuse(file, "stores " + std::to_string(bits) + " bits a pixel, which does not fit its kind");
-  if (!header.fractional) return;
-  header.maximum = data.whole(tag::kMaximumFraction).value_or(0);
-  if (header.maximum < 1 || header.maximum > 255) refuse(file, "MaximumFractionalValue is not between 1 and 255");
-}
-
-void require_length(Header& header, const PixelSpan& pixels, const DicomInstance& file) {
-  header.compressed = pixels.encapsulated, header.offset = pixels.offset;
-  if (header.compressed && !header.fractional)
-    refuse(file, "holds compressed bits, which are not read: export it uncompressed");
-  if (header.compressed) return;
-  const std::uint64_t all = header.pixels() * static_cast<std::uint64_t>(header.frames),
-                      need = header.fractional ? all : (all + 7) / 8;
-  const std::uint64_t there =
-      std::min(pixels.length, header.source->size() - std::min(header.source->size(), pixels.offset));
-  if (there < need)
-    refuse(file, "pixel data are cut off: " + std::to_string(there) + " of " + std::to_string(need) +
-                     " bytes are there; copy or export it again");
-}
-
-/// Everything that dcmseg would trust is checked first.
-Header checked_header(const DicomInstance& file) {
-  Header header;
-  InflateBudget budget;
-  const auto elements = read_dicom_elements(file.path, file.name, budget, &header.source);
-  if (!elements) refuse(file, "is not a DICOM file");
-  require_decodable(file, *elements);
-  header.rows = file.rows, header.columns = file.columns, header.frames = file.frames;
-  const std::uint64_t pixels = header.pixels();
-  if (pixels == 0 || file.frames < 1) refuse(file, "holds no frames");
-  if (pixels > kMostPixels / static_cast<std::uint64_t>(file.frames))
-    refuse(file, "claims " + std::to_string(file.frames) + " frames of " + std::to_string(file.columns) + " x " +
-                     std::to_string(file.rows) + " pixels: more than an import may hold");
-  read_coding(header, elements->data, file);
-  require_length(header, elements->pixels, file);
-  header.places = slice_places(elements->data, file.frames, file.name);
-  return header;
-}
-
 /// One grid for all frames: their orientation, pixel spacing and in-plane place must agree.
 class SegmentationGrid {
  public:
-  SegmentationGrid(const Header& header, const DicomInstance& file) : first_(header.places.front()) {
+  SegmentationGrid(const SegmentationHeader& header, const DicomInstance& file)
+      : first_(header.image().places.front()) {
     normal_ = first_.along_row.cross(first_.along_column);
     std::vector<double> heights;
-    for (const SlicePlace& place : header.places) {
+    for (const SlicePlace& place : header.image().places) {
       require_same(place, file);
       heights.push_back(normal_.dot(place.position));
     }
     planes_ = even_planes(heights, "frames", file.name);
     if (planes_.step == 0) refuse(file, "marks a single slice: a volume needs two at least, an organ some dozens");
-    size_ = {header.columns, header.rows, planes_.count};
+    size_ = {header.file.columns, header.file.rows, planes_.count};
     const double voxels = static_cast<double>(size_[0]) * size_[1] * size_[2];
     if (voxels > static_cast<double>(kMostVoxels))
       refuse(file, "spans more voxels than an import may hold (268 million)");
@@ -150,72 +81,138 @@ class SegmentationGrid {
   std::array<int, 3> size_{};
 };
 
-/// Calls `mark(n)` for every pixel of a frame that counts.
-template <typename Mark>
-void for_marked(const Header& header, const SegmentationFrames& frames, std::size_t frame, const Mark& mark) {
-  const std::size_t pixels = header.pixels();
-  if (header.fractional) {
-    const std::string bytes =
-        header.compressed ? frames.values[frame] : header.source->bytes(header.offset + frame * pixels, pixels);
-    for (std::size_t n = 0; n < pixels; ++n) {
-      const unsigned value = static_cast<unsigned char>(bytes[n]);
-      if (value != 0 && 2 * value >= header.maximum) mark(n);
-    }
-    return;
-  }
-  const std::uint64_t first =
-      frame * static_cast<std::uint64_t>(pixels);  // bits run on from frame to frame (PS3.5 8.1.1)
-  const std::string bytes =
-      header.source->bytes(header.offset + first / 8, static_cast<std::size_t>((first % 8 + pixels + 7) / 8));
-  for (std::size_t n = 0; n < pixels; ++n)
-    if ((static_cast<unsigned char>(bytes[(first % 8 + n) / 8]) >> (first + n) % 8 & 1) != 0) mark(n);
+/// Calls `take` with every frame's values, in order.
+void for_frames(const SegmentationHeader& header, const Progress& progress, const DicomPixels::Take& take) {
+  std::vector<DicomPixels::Wish> wishes;
+  for (std::size_t frame = 0; frame < header.frames(); ++frame) wishes.push_back({&header.file, frame});
+  DicomPixels::read(wishes, progress, take);
 }
 
-SegmentMask mask_of(int number, const Header& header, const SegmentationFrames& frames, const SegmentationGrid& grid) {
+/// Whether a pixel counts, for all pixels of all frames. Native bits run on from frame to frame (PS3.5 8.1.1).
+std::vector<bool> marked_pixels(const SegmentationHeader& header, const Progress& progress) {
+  const std::size_t pixels = header.pixels();
+  std::vector<bool> marked(pixels * header.frames());
+  const PixelSpan& span = header.image().pixels;
+  const bool bits = header.content == SegmentationContent::kBits;
+  const bool packed = bits && header.image().format.stored == 8;
+  if (bits && !span.encapsulated) {
+    constexpr std::size_t kBytes = std::size_t{1} << 20;
+    for (std::size_t from = 0; from < marked.size(); from += 8 * kBytes) {
+      const std::size_t count = std::min(8 * kBytes, marked.size() - from);
+      const std::string bytes = header.source->bytes(span.offset + from / 8, (count + 7) / 8);
+      for (std::size_t n = 0; n < count; ++n)
+        marked[from + n] = (static_cast<unsigned char>(bytes[n / 8]) >> n % 8 & 1) != 0;
+    }
+    return marked;
+  }
+  for_frames(header, progress, [&](std::size_t frame, const std::vector<float>& values) {
+    for (std::size_t n = 0; n < pixels; ++n) {
+      const auto value = static_cast<unsigned>(values[packed ? n / 8 : n]);
+      marked[frame * pixels + n] =
+          packed ? (value >> n % 8 & 1) != 0 : value != 0 && (bits || 2 * value >= header.maximum);
+    }
+  });
+  return marked;
+}
+
+SegmentMask mask_of(int number, const SegmentationHeader& header, const std::vector<bool>& marked,
+                    const SegmentationGrid& grid) {
   SegmentMask mask(grid.size());
-  for (std::size_t frame = 0; frame < frames.segment_of.size(); ++frame) {
-    if (frames.segment_of[frame] != number) continue;
+  for (std::size_t frame = 0; frame < header.frames(); ++frame) {
+    if (header.segment_of[frame] != number) continue;
     const int slice = grid.slice_of(frame);
     const std::size_t from = header.pixels() * static_cast<std::size_t>(slice);
-    for_marked(header, frames, frame, [&](std::size_t n) {
-      mask.voxels[from + n] = true;
-      mask.mark_slice(slice);
-    });
+    for (std::size_t n = 0; n < header.pixels(); ++n)
+      if (marked[frame * header.pixels() + n]) mask.voxels[from + n] = true, mask.mark_slice(slice);
   }
   return mask;
 }
 
-void require_frames(const SegmentationFrames& frames, const Header& header, const DicomInstance& file) {
-  if (frames.segment_of.size() != header.places.size())
-    refuse(file, "dcmseg finds another number of frames than the header says");
-  for (const std::string& values : frames.values)
-    if (header.compressed && values.size() < header.pixels()) refuse(file, "a frame is cut off");
-  if (frames.segments.size() > 65535) refuse(file, "holds more than 65535 segments");
+std::string no_voxel(const Segment& segment) {
+  return "Segment " + std::to_string(segment.number) + " (" + segment.name + ") marks no voxel and was left out.";
 }
 
-LabelMap assembled(const Header& header, const SegmentationFrames& frames, const SegmentationGrid& grid,
-                   const DicomInstance& file, const Progress& progress) {
-  SegmentLayers layers(grid.size(), grid.ras_frame(), file.name);
+LabelMap layered(const SegmentationHeader& header, const SegmentationGrid& grid, const Progress& progress) {
+  SegmentLayers layers(grid.size(), grid.ras_frame(), header.file.name);
   std::vector<std::string> notes;
+  const std::vector<bool> marked = marked_pixels(header, progress);
   double done = 0;
-  for (const Segment& segment : frames.segments) {
-    report(progress, "segments", done++ / static_cast<double>(frames.segments.size()));
-    const SegmentMask mask = mask_of(segment.number, header, frames, grid);
-    if (mask.empty())
-      notes.push_back("Segment " + std::to_string(segment.number) + " (" + segment.name +
-                      ") marks no voxel and was left out.");
+  for (const Segment& segment : header.segments) {
+    report(progress, "segments", done++ / static_cast<double>(header.segments.size()));
+    const SegmentMask mask = mask_of(segment.number, header, marked, grid);
+    if (mask.empty()) notes.push_back(no_voxel(segment));
     layers.add(segment, mask);
   }
   LabelMap map = layers.take();
-  if (map.layers.empty()) refuse(file, "marks no voxel at all");
-  if (header.fractional)
-    notes.emplace_back("The segmentation is fractional: a voxel counts from one half of the maximum on.");
-  if (const int empty = grid.empty_slices(); empty > 0)
-    notes.push_back("The segmentation leaves " + std::to_string(empty) +
-                    " slices out between its first and last; they are empty.");
-  if (map.layers.size() > 1)
-    notes.push_back("Segments overlap: they lie in " + std::to_string(map.layers.size()) + " layers.");
   map.notes = std::move(notes);
+  const auto lost = std::count_if(header.segment_of.begin(), header.segment_of.end(), [&](int number) {
+    return std::none_of(header.segments.begin(), header.segments.end(),
+                        [&](const Segment& segment) { return segment.number == number; });
+  });
+  if (lost > 0)
+    map.notes.push_back(std::to_string(lost) + " frames name no segment that the file describes; they were left out.");
+  if (header.content == SegmentationContent::kFractions)
+    map.notes.emplace_back("The segmentation is fractional: a voxel counts from one half of the maximum on.");
+  if (map.layers.size() > 1)
+    map.notes.push_back("Segments overlap: they lie in " + std::to_string(map.layers.size()) + " layers.");
+  return map;
+}
+
+/// What a label map says of its numbers: those described, without voxels, without description.
+void name_numbers(LabelMap& map, const SegmentationHeader& header) {
+  const std::map<int, std::size_t> counts = map.layers.front().label_counts();
+  std::map<int, Segment> described;
+  for (const Segment& segment : header.segments) described.emplace(segment.number, segment);
+  for (const auto& [number, count] : counts) {
+    const auto found = described.find(number);
+    map.segments.push_back(found != described.end() ? found->second : Segment{0, number});
+    if (found == described.end())
+      map.notes.push_back("Number " + std::to_string(number) + " marks " + std::to_string(count) +
+                          " voxels, but the file does not say what it is.");
+  }
+  for (const auto& [number, segment] : described)
+    if (number != 0 && number != static_cast<int>(header.background) && !counts.contains(number))
+      map.notes.push_back(no_voxel(segment));
+}
+
+LabelMap numbered(const SegmentationHeader& header, const SegmentationGrid& grid, const Progress& progress) {
+  LabelVolume layer;
+  layer.size = grid.size(), layer.index_to_ras_mm = grid.ras_frame();
+  layer.labels.assign(header.pixels() * static_cast<std::size_t>(grid.size()[2]), 0);
+  std::vector<bool> filled(static_cast<std::size_t>(grid.size()[2]));
+  std::size_t zeros = 0;
+  for_frames(header, progress, [&](std::size_t frame, const std::vector<float>& values) {
+    const auto slice = static_cast<std::size_t>(grid.slice_of(frame));
+    if (filled[slice])
+      refuse(header.file, "has two frames in one place (one of them frame " + std::to_string(frame + 1) +
+                              "): a label map has one number a voxel; export it again");
+    filled[slice] = true;
+    for (std::size_t n = 0; n < header.pixels(); ++n) {
+      const auto number = static_cast<unsigned>(values[n]);
+      if (number == header.background) continue;
+      layer.labels[header.pixels() * slice + n] = static_cast<std::uint16_t>(number);
+      zeros += number == 0 ? 1 : 0;
+    }
+  });
+  LabelMap map;
+  map.layers.push_back(in_ras_order(std::move(layer)));
+  if (zeros > 0)
+    map.notes.push_back("Number 0 marks " + std::to_string(zeros) + " voxels beside the background, number " +
+                        std::to_string(header.background) + "; both were taken for background.");
+  name_numbers(map, header);
+  if (map.segments.empty()) map.layers.clear();
+  return map;
+}
+
+LabelMap assembled(const SegmentationHeader& header, const SegmentationGrid& grid, const Progress& progress) {
+  LabelMap map = header.content == SegmentationContent::kNumbers ? numbered(header, grid, progress)
+                                                                 : layered(header, grid, progress);
+  if (map.layers.empty()) refuse(header.file, "marks no voxel at all");
+  if (header.image().lossy)
+    map.notes.emplace_back("The segmentation was compressed with loss before it came here: its edges may be off.");
+  if (const int empty = grid.empty_slices(); empty > 0)
+    map.notes.push_back("The segmentation leaves " + std::to_string(empty) +
+                        " slices out between its first and last; they are empty.");
   return map;
 }
 
@@ -235,11 +232,8 @@ LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progre
                      " segmentation files (" + series.instances[0].name + ", " + series.instances[1].name +
                      ", ...): give one of them");
   const DicomInstance& file = series.instances.front();
-  const Header header = checked_header(file);
-  const SegmentationGrid grid(header, file);
-  const SegmentationFrames frames = read_segmentation_frames(file.path, file.name, header.compressed, progress);
-  require_frames(frames, header, file);
-  LabelMap map = assembled(header, frames, grid, file, progress);
+  const SegmentationHeader header = segmentation_header(file);
+  LabelMap map = assembled(header, SegmentationGrid(header, file), progress);
   map.notes.insert(map.notes.begin(), all.notes.begin(), all.notes.end());
   return map;
 }

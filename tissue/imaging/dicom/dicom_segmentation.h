@@ -1,8 +1,8 @@
 // DICOM Segmentation objects (SEG) as label maps.
 //
-// Source: DICOM PS3.3 A.51 and C.8.20; segments and their frames by dcmseg in a child process. Every segment is one
-// Segment; segments that share a voxel lie in different layers. A fractional segmentation counts from one half of its
-// maximum on (a note says so). Frame RAS, mm. Thread: as dicom_reader.h.
+// Source: DICOM PS3.3 A.51 and C.8.20. Kinds: BINARY; FRACTIONAL, which counts from one half of its maximum on (a note
+// says so); LABELMAP (8 or 16 bits, with a palette or not), which carries one number a voxel. Every segment is one
+// Segment; segments that share a voxel lie in different layers. Frame RAS, mm. Thread: as dicom_reader.h.
 #pragma once
 
 #include <filesystem>

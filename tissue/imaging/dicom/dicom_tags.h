@@ -22,7 +22,15 @@ inline constexpr DicomTag kIntercept = 0x00281052, kSlope = 0x00281053, kLossy =
 inline constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 inline constexpr DicomTag kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110;
 inline constexpr DicomTag kValueTransformation = 0x00289145;
-inline constexpr DicomTag kSegmentationType = 0x00620001, kMaximumFraction = 0x0062000E;
+inline constexpr DicomTag kSegmentationType = 0x00620001, kMaximumFraction = 0x0062000E, kPadding = 0x00280120;
+inline constexpr DicomTag kSegments = 0x00620002, kSegmentNumber = 0x00620004, kSegmentLabel = 0x00620005;
+inline constexpr DicomTag kDisplayLab = 0x0062000D, kSegmentIdentification = 0x0062000A,
+                          kReferencedSegment = 0x0062000B;
+inline constexpr DicomTag kPropertyCategory = 0x00620003, kPropertyType = 0x0062000F,
+                          kPropertyTypeModifier = 0x00620011;
+inline constexpr DicomTag kAnatomicRegion = 0x00082218, kAnatomicRegionModifier = 0x00082220;
+inline constexpr DicomTag kCodeValue = 0x00080100, kCodeScheme = 0x00080102, kCodeMeaning = 0x00080104;
+inline constexpr DicomTag kPaletteAbout = 0x00281101, kPalette = 0x00281201;  // of red; green and blue follow
 inline constexpr DicomTag kFloatPixels = 0x7FE00008, kDoublePixels = 0x7FE00009, kPixels = 0x7FE00010;
 inline constexpr DicomTag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 

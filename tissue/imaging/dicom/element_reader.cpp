@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kDeepest = 12;
 constexpr std::size_t kMostKept = 600000, kMostFragments = 200000;
-constexpr std::uint32_t kLongestValue = 1024;
+constexpr std::uint32_t kLongestValue = 1024, kLongestTable = 1 << 17;
 
 struct Wanted {
   DicomTag tag;
-  char type;  ///< t text, w 16-bit numbers, q sequence
+  char type;  ///< t text, w 16-bit numbers, l a long table of them, q sequence
 };
 
 constexpr Wanted kWanted[] = {
@@ -60,6 +60,27 @@ constexpr Wanted kWanted[] = {
     {tag::kValueTransformation, 'q'},
     {tag::kSegmentationType, 't'},
     {tag::kMaximumFraction, 'w'},
+    {tag::kPadding, 'w'},
+    {tag::kSegments, 'q'},
+    {tag::kSegmentNumber, 'w'},
+    {tag::kSegmentLabel, 't'},
+    {tag::kDisplayLab, 'w'},
+    {tag::kSegmentIdentification, 'q'},
+    {tag::kReferencedSegment, 'w'},
+    {tag::kPropertyCategory, 'q'},
+    {tag::kPropertyType, 'q'},
+    {tag::kPropertyTypeModifier, 'q'},
+    {tag::kAnatomicRegion, 'q'},
+    {tag::kAnatomicRegionModifier, 'q'},
+    {tag::kCodeValue, 't'},
+    {tag::kCodeScheme, 't'},
+    {tag::kCodeMeaning, 't'},
+    {tag::kPaletteAbout, 'w'},
+    {tag::kPaletteAbout + 1, 'w'},
+    {tag::kPaletteAbout + 2, 'w'},
+    {tag::kPalette, 'l'},
+    {tag::kPalette + 1, 'l'},
+    {tag::kPalette + 2, 'l'},
 };
 
 char wanted_type(DicomTag tag) {
@@ -135,11 +156,12 @@ ElementReader::Head ElementReader::read_head(std::uint64_t at, std::uint64_t end
 }
 
 void ElementReader::keep_value(DicomItem& item, const Head& head, char type) {
-  if (head.length > kLongestValue) damaged(head.tag, "a value of " + std::to_string(head.length) + " bytes");
+  if (head.length > (type == 'l' ? kLongestTable : kLongestValue))
+    damaged(head.tag, "a value of " + std::to_string(head.length) + " bytes");
   if (++kept_ > kMostKept) damaged(head.tag, "more elements than a reader can hold");
   std::string value = source_.bytes(head.value_at, head.length);
   if (type == 't') value = trimmed_text(std::move(value));
-  if (type == 'w' && big_)
+  if (type != 't' && big_)
     for (std::size_t n = 0; n + 1 < value.size(); n += 2) std::swap(value[n], value[n + 1]);
   item.elements.try_emplace(head.tag, DicomElement{std::move(value), {}});
 }

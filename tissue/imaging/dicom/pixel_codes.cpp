@@ -76,44 +76,25 @@ bool ends_with_end_marker(std::string_view bytes) {
   return bytes.ends_with(end) || (bytes.ends_with('\xFF') && bytes.substr(0, bytes.size() - 1).ends_with(end));
 }
 
-/// Bytes that one RLE segment gives, stopping at `enough`.
-std::size_t unpacked_length(const Bytes& bytes, std::size_t from, std::size_t to, std::size_t enough) {
-  std::size_t given = 0;
-  while (from < to && given < enough) {
-    const int code = bytes.at(from);
-    if (code == 128) {
-      ++from;
-    } else if (code < 128) {
-      const std::size_t count = static_cast<std::size_t>(code) + 1;
-      if (from + 1 + count > to) return given;
-      given += count, from += 1 + count;
-    } else {
-      if (from + 1 >= to) return given;
-      given += static_cast<std::size_t>(257 - code), from += 2;
-    }
+/// What one RLE segment gives, stopping at `enough`; less where it is cut off.
+std::string unpacked_segment(std::string_view coded, std::size_t enough) {
+  std::string given;
+  for (std::size_t at = 0; at < coded.size() && given.size() < enough;) {
+    const int code = static_cast<unsigned char>(coded[at++]);
+    if (code == 128) continue;
+    const std::size_t count = static_cast<std::size_t>(code < 128 ? code + 1 : 257 - code);
+    const std::size_t taken = code < 128 ? count : 1;
+    if (at + taken > coded.size()) break;
+    given += code < 128 ? std::string(coded.substr(at, count)) : std::string(count, coded[at]);
+    at += taken;
   }
   return given;
-}
-
-void check_rle(const Bytes& bytes, const DicomImage& image, const std::string& name) {
-  const auto segments = static_cast<std::size_t>(image.format.allocated / 8);
-  if (bytes.all.size() < 64 || bytes.little32(0) != segments)
-    throw InputError(name + ": its RLE frame does not hold " + std::to_string(segments) +
-                     " planes of bytes: it is damaged");
-  const std::size_t need = static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns);
-  for (std::size_t n = 0; n < segments; ++n) {
-    const std::size_t from = bytes.little32(4 + 4 * n);
-    const std::size_t to = n + 1 < segments ? bytes.little32(8 + 4 * n) : bytes.all.size();
-    if (from < 64 || from > to || to > bytes.all.size() || unpacked_length(bytes, from, to, need) < need)
-      throw InputError(name + ": its RLE pixels are cut off or damaged; copy or export it again");
-  }
 }
 
 }  // namespace
 
 void check_compressed_frame(std::string_view bytes, const DicomImage& image, const std::string& name) {
   const Bytes all{bytes};
-  if (image.syntax->coding == PixelCoding::kRle) return check_rle(all, image, name);
   const CodedSize size = image.syntax->coding == PixelCoding::kJpeg2000 ? jpeg2000_size(all) : jpeg_size(all);
   const std::string kind(image.syntax->name);
   if (size.rows <= 0) throw InputError(name + ": its pixels are not " + kind + ", as the header says, or are damaged");
@@ -127,6 +108,25 @@ void check_compressed_frame(std::string_view bytes, const DicomImage& image, con
                      std::to_string(image.format.allocated));
   if (!ends_with_end_marker(bytes))
     throw InputError(name + ": its compressed pixels are cut off; copy or export it again");
+}
+
+std::string decode_rle_frame(std::string_view bytes, const DicomImage& image, const std::string& name) {
+  const Bytes all{bytes};
+  const auto planes = static_cast<std::size_t>(image.format.allocated / 8);
+  if (bytes.size() < 64 || all.little32(0) != planes)
+    throw InputError(name + ": its RLE frame does not hold " + std::to_string(planes) +
+                     " planes of bytes: it is damaged");
+  const std::size_t pixels = static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.columns);
+  std::string values(pixels * planes, '\0');
+  for (std::size_t n = 0; n < planes; ++n) {
+    const std::size_t from = all.little32(4 + 4 * n), to = n + 1 < planes ? all.little32(8 + 4 * n) : bytes.size();
+    const bool inside = from >= 64 && from <= to && to <= bytes.size();
+    const std::string plane = inside ? unpacked_segment(bytes.substr(from, to - from), pixels) : "";
+    if (plane.size() < pixels)
+      throw InputError(name + ": its RLE pixels are cut off or damaged; copy or export it again");
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) values[(pixel + 1) * planes - 1 - n] = plane[pixel];
+  }
+  return values;
 }
 
 }  // namespace trocar

@@ -11,27 +11,6 @@ constexpr double kFarthest = 1e5;                           // mm: a position of
 constexpr double kSmallestStep = 1e-3, kLargestStep = 100;  // mm between pixels
 constexpr double kCosineError = 2e-3;
 
-/// The functional group macro of one frame: its own, else the shared one, else the data set itself (plain images).
-class Groups {
- public:
-  Groups(const DicomItem& data, std::size_t frame) : data_(data), shared_(data.first_item(tag::kSharedGroups)) {
-    const DicomElement* frames = data.find(tag::kFrameGroups);
-    if (frames != nullptr && frame < frames->items.size()) own_ = &frames->items[frame];
-  }
-  const DicomItem* find(DicomTag group) const {
-    if (own_ == nullptr && shared_ == nullptr) return &data_;
-    for (const DicomItem* where : {own_, shared_})
-      if (where != nullptr)
-        if (const DicomItem* item = where->first_item(group)) return item;
-    return nullptr;
-  }
-
- private:
-  const DicomItem& data_;
-  const DicomItem* own_ = nullptr;
-  const DicomItem* shared_;
-};
-
 struct Place {
   std::string where;  ///< begins messages
 
@@ -76,23 +55,34 @@ void read_rescale(const Place& at, const DicomItem* item, SlicePlace& place) {
 }
 
 SlicePlace place_of(const DicomItem& data, std::size_t frame, const Place& at) {
-  const Groups groups(data, frame);
+  const auto group = [&](DicomTag tag) { return frame_group(data, frame, tag); };
   SlicePlace place;
-  const auto position = at.numbers(groups.find(tag::kPlanePosition), tag::kPosition, 3, "ImagePositionPatient");
+  const auto position = at.numbers(group(tag::kPlanePosition), tag::kPosition, 3, "ImagePositionPatient");
   place.position = Eigen::Vector3d(position[0], position[1], position[2]);
   if (place.position.cwiseAbs().maxCoeff() > kFarthest) at.refuse("ImagePositionPatient lies more than 100 m away");
-  read_orientation(at, groups.find(tag::kPlaneOrientation), place);
-  const auto spacing = at.numbers(groups.find(tag::kPixelMeasures), tag::kPixelSpacing, 2, "PixelSpacing");
+  read_orientation(at, group(tag::kPlaneOrientation), place);
+  const auto spacing = at.numbers(group(tag::kPixelMeasures), tag::kPixelSpacing, 2, "PixelSpacing");
   for (const double step : spacing)
     if (!(step >= kSmallestStep && step <= kLargestStep)) at.refuse("PixelSpacing is not between 0.001 and 100 mm");
   place.column_step = spacing[0],
   place.row_step = spacing[1];  // PS3.3 10.7.1.3: first between rows, then between columns
-  const DicomItem* rescale = groups.find(tag::kValueTransformation);
+  const DicomItem* rescale = group(tag::kValueTransformation);
   read_rescale(at, rescale != nullptr ? rescale : &data, place);
   return place;
 }
 
 }  // namespace
+
+const DicomItem* frame_group(const DicomItem& data, std::size_t frame, DicomTag group) {
+  const DicomItem* shared = data.first_item(tag::kSharedGroups);
+  const DicomElement* frames = data.find(tag::kFrameGroups);
+  const DicomItem* own = frames != nullptr && frame < frames->items.size() ? &frames->items[frame] : nullptr;
+  if (own == nullptr && shared == nullptr) return &data;
+  for (const DicomItem* where : {own, shared})
+    if (where != nullptr)
+      if (const DicomItem* item = where->first_item(group)) return item;
+  return nullptr;
+}
 
 std::vector<SlicePlace> slice_places(const DicomItem& data, int frames, const std::string& name) {
   const DicomElement* groups = data.find(tag::kFrameGroups);

@@ -85,14 +85,39 @@ void read_offset(const NiftiFields& fields, const std::string& file, NiftiHeader
     refuse_header(file, "vox_offset", plain(header.data_offset) + " is not a place behind the header");
 }
 
-Eigen::Vector3d read_pixdim(const NiftiFields& fields, const std::string& file) {
+/// Brings the header's lengths to millimetres: by the caller's unit where the header says none, or another than mm.
+/// @return what helps when they come out implausible
+std::string scale_to_mm(NiftiFields& fields, const std::string& asked, const std::string& file, NiftiHeader& header) {
+  const int unit = fields.units & 7;
+  const std::string said = unit == 1 ? "metres" : unit == 3 ? "micrometres" : "no unit that is known";
+  double scale = unit == 1 ? 1e3 : unit == 3 ? 1e-3 : 1;
+  if (!asked.empty()) scale = millimetres_in(asked, "--unit", file);
+  if (unit == 2 && scale != 1) refuse_header(file, "--unit", "NIfTI is in mm; its header says so");
+  if (unit == 2) return "";
+  header.notes.push_back("xyzt_units says " + said + "; " +
+                         (!asked.empty()           ? asked + " was taken, as --unit says"
+                          : unit == 1 || unit == 3 ? std::string("lengths were brought to millimetres")
+                                                   : std::string("millimetres assumed")));
+  for (std::size_t axis = 1; axis <= 3; ++axis) fields.pixdim[axis] *= scale, fields.qoffset[axis - 1] *= scale;
+  fields.srow *= scale;
+  return " (xyzt_units says " + said + "; where that is wrong, --unit mm, cm, m or um says what is right)";
+}
+
+/// Edges of a voxel. nifti1.h wants them positive: which way an axis runs is for the sform, or the quaternion and
+/// pixdim[0], to say.
+Eigen::Vector3d read_pixdim(const NiftiFields& fields, const std::string& file, const std::string& hint,
+                            NiftiHeader& header) {
   Eigen::Vector3d spacing;
   for (std::size_t axis = 1; axis <= 3; ++axis) {
     const double value = fields.pixdim[axis];
-    if (!(value >= 0.01 && value <= 100))
-      refuse_header(file, "pixdim[" + std::to_string(axis) + "]", plain(value) + " mm is no voxel size");
-    spacing[static_cast<Eigen::Index>(axis) - 1] = value;
+    if (!(std::abs(value) >= 0.01 && std::abs(value) <= 100))
+      refuse_header(file, "pixdim[" + std::to_string(axis) + "]", plain(value) + " mm is no voxel size" + hint);
+    spacing[static_cast<Eigen::Index>(axis) - 1] = std::abs(value);
   }
+  const bool negative = std::any_of(&fields.pixdim[1], &fields.pixdim[1] + 3, [](double value) { return value < 0; });
+  if (negative)
+    header.notes.push_back("pixdim holds negative voxel sizes, which have no meaning: their amounts were taken, the " +
+                           std::string(fields.sform > 0 ? "sform" : "qform") + " says which way the axes run");
   return spacing;
 }
 
@@ -125,19 +150,16 @@ double largest_corner_shift(const NiftiHeader& header, const Eigen::Affine3d& ot
   return shift;
 }
 
-void read_nifti_frame(const NiftiFields& fields, const std::string& file, NiftiHeader& header) {
-  const int unit = fields.units & 7;
-  if (unit == 0) header.notes.push_back("xyzt_units says no unit; millimetres assumed");
-  if (unit == 1 || unit == 3)
-    refuse_header(file, "xyzt_units", "lengths in metres or micrometres; millimetres are wanted");
-  const Eigen::Vector3d pixdim = read_pixdim(fields, file);
+void read_nifti_frame(NiftiFields fields, const std::string& unit, const std::string& file, NiftiHeader& header) {
+  const std::string hint = scale_to_mm(fields, unit, file, header);
+  const Eigen::Vector3d pixdim = read_pixdim(fields, file, hint, header);
   const int qform = fields.qform, sform = fields.sform;
   if (qform < 0 || qform > 5 || sform < 0 || sform > 5) refuse_header(file, "qform_code/sform_code", "unknown code");
   if (qform == 0 && sform == 0)
     refuse_header(file, "qform_code/sform_code", "both 0: the file does not say where left and right are");
   header.index_to_ras_mm = sform > 0 ? sform_of(fields) : qform_of(fields, pixdim);
   header.frame_source = sform > 0 ? "sform " + std::to_string(sform) : "qform " + std::to_string(qform);
-  check_frame(header.index_to_ras_mm, sform > 0 ? "srow" : "quatern", file, "", header.notes);
+  check_frame(header.index_to_ras_mm, sform > 0 ? "srow" : "quatern", file, hint, header.notes);
   if (sform == 0 || qform == 0) return;
   const Eigen::Affine3d from_qform = qform_of(fields, pixdim);
   std::vector<std::string> unused;
@@ -204,7 +226,7 @@ void read_extensions(GzipStream& stream, std::vector<unsigned char>& bytes, Nift
     header.labels = nifti_labels(std::span(bytes).subspan(from, last - from), header.swapped, header.notes);
 }
 
-NiftiHeader open_header(const fs::path& path) {
+NiftiHeader open_header(const fs::path& path, const std::string& unit = {}) {
   const std::string file = path.string(), name = lower_case(file);
   const bool named_gzip = name.ends_with(".gz"), pair = name.ends_with(".hdr") || name.ends_with(".hdr.gz");
   if (!pair && !name.ends_with(".nii") && !name.ends_with(".nii.gz"))
@@ -220,7 +242,7 @@ NiftiHeader open_header(const fs::path& path) {
   if (got < wanted)
     refuse_header(file, "header",
                   "the file ends after " + std::to_string(got) + " of " + std::to_string(wanted) + " header bytes");
-  NiftiHeader header = parse_nifti_header(std::span(bytes).first(got), file);
+  NiftiHeader header = parse_nifti_header(std::span(bytes).first(got), file, unit);
   if (header.pair != pair)
     refuse_header(file, "magic",
                   pair ? "a header of a single file (.nii) under the name of a .hdr/.img pair"
@@ -243,7 +265,7 @@ std::size_t NiftiHeader::voxel_count() const {
 
 Eigen::Vector3d NiftiHeader::spacing_mm() const { return index_to_ras_mm.linear().colwise().norm().transpose(); }
 
-NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::string& file) {
+NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::string& file, const std::string& unit) {
   const NiftiFields fields = decode_nifti(bytes, file);
   NiftiHeader header;
   header.version = fields.version;
@@ -252,7 +274,7 @@ NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::
   read_nifti_size(fields, file, header);
   read_type(fields, file, header);
   read_offset(fields, file, header);
-  read_nifti_frame(fields, file, header);
+  read_nifti_frame(fields, unit, file, header);
   return header;
 }
 
@@ -266,7 +288,7 @@ NiftiHeader read_nifti_header(const fs::path& path) {
   return header;
 }
 
-VolumeHeader nifti_volume_header(const fs::path& path) {
+VolumeHeader nifti_volume_header(const fs::path& path, const std::string& unit) {
   const std::string name = lower_case(path.string());
   const bool image = name.ends_with(".img") || name.ends_with(".img.gz");
   fs::path header = image ? partner(path, ".img", ".hdr") : path;
@@ -278,7 +300,7 @@ VolumeHeader nifti_volume_header(const fs::path& path) {
       refuse_header(path.string(), "pair", "its header, " + header.filename().string() + ", is not beside it");
     header = other;
   }
-  return described(open_header(header), header);
+  return described(open_header(header, unit), header);
 }
 
 }  // namespace trocar

@@ -55,8 +55,10 @@ struct NiftiHeader {
 
 /// Judges the header bytes alone.
 /// @param file name used in messages
+/// @param unit of its lengths where the header says none, or another than mm (millimetres_in); "" as the header says
 /// @throws InputError "FILE: field: what is wrong"
-NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::string& file);
+NiftiHeader parse_nifti_header(std::span<const unsigned char> bytes, const std::string& file,
+                               const std::string& unit = {});
 
 /// Extension and signature, header, and presence of every voxel byte of a single file.
 /// @throws InputError naming file and field
@@ -64,7 +66,8 @@ NiftiHeader read_nifti_header(const std::filesystem::path& path);
 
 /// The same as the other formats' headers are told; the voxels are not looked at. .nii, .nii.gz, .hdr or .img (also
 /// .gz) of a pair.
+/// @param unit as parse_nifti_header has it
 /// @throws InputError naming file and field
-VolumeHeader nifti_volume_header(const std::filesystem::path& path);
+VolumeHeader nifti_volume_header(const std::filesystem::path& path, const std::string& unit = {});
 
 }  // namespace trocar

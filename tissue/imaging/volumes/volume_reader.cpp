@@ -91,9 +91,7 @@ VolumeHeader header_of(const fs::path& path, const VolumeReading& reading) {
   check_signature(path, format);
   if (format == Format::kNrrd) return nrrd_volume_header(path, reading);
   if (format == Format::kMetaImage) return meta_image_header(path, reading);
-  if (!reading.unit.empty() && lower_case(reading.unit) != "mm")
-    throw InputError(name + ": --unit: NIfTI is in mm; its header says so");
-  return nifti_volume_header(path);
+  return nifti_volume_header(path, reading.unit);
 }
 
 /// Sheared axes become right-angled ones: what follows measures along the axes.

@@ -18,6 +18,7 @@ inline constexpr const char* kCtClass = "1.2.840.10008.5.1.4.1.1.2";
 inline constexpr const char* kMrClass = "1.2.840.10008.5.1.4.1.1.4";
 inline constexpr const char* kEnhancedCtClass = "1.2.840.10008.5.1.4.1.1.2.1";
 inline constexpr const char* kSegmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
+inline constexpr const char* kLabelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
 inline constexpr const char* kStructureClass = "1.2.840.10008.5.1.4.1.1.481.3";
 inline constexpr const char* kRle = "1.2.840.10008.1.2.5";
 

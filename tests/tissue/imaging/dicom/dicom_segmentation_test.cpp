@@ -4,6 +4,7 @@
 #include <random>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/imaging/dicom/gdcm_fixture.h"
 #include "tests/tissue/imaging/dicom/segmentation_fixture.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"
@@ -11,9 +12,10 @@
 namespace trocar::test::dicom_segmentation_test {
 namespace {
 
-SegmentationFixture random_segmentation(unsigned seed, int segments, int slices, int maximum = 0) {
+SegmentationFixture random_segmentation(unsigned seed, int segments, int slices, int maximum = 0,
+                                        const SegmentationFixture& like = {}) {
   std::mt19937 random(seed);
-  SegmentationFixture fixture;
+  SegmentationFixture fixture = like;
   fixture.maximum = maximum;
   fixture.labels.clear();
   for (int segment = 1; segment <= segments; ++segment) {
@@ -57,6 +59,37 @@ void expect_holds(const LabelMap& map, const SegmentationFixture& fixture) {
             << frame.segment << " " << i << " " << j;
       }
   }
+}
+
+/// A label map of 4 slices with the numbers 3, 7 and 200 (and 40000 instead of it where 16 bits have room).
+SegmentationFixture label_map(unsigned seed, int bits, const SegmentationFixture& like = {}) {
+  std::mt19937 random(seed);
+  SegmentationFixture fixture = like;
+  const int last = bits == 16 ? 40000 : 200;
+  fixture.label_bits = bits, fixture.numbers = {3, 7, last};
+  fixture.labels = {"Organ 3", "Organ 7", "Organ " + std::to_string(last)};
+  const int values[] = {0, 3, 7, last};
+  for (const int k : {2, 0, 3, 1}) {
+    SegmentationFrame frame{0, {-40, 12, 100 + 2.5 * k}, {}};
+    for (int n = 0; n < fixture.rows * fixture.columns; ++n) frame.values.push_back(values[random() % 4]);
+    fixture.frames.push_back(frame);
+  }
+  return fixture;
+}
+
+void expect_numbers(const LabelMap& map, const SegmentationFixture& fixture) {
+  ASSERT_EQ(map.layers.size(), 1U);
+  ASSERT_EQ(map.segments.size(), fixture.labels.size());
+  for (std::size_t n = 0; n < fixture.labels.size(); ++n) {
+    EXPECT_EQ(map.segments[n].number, fixture.numbers[n]);
+    EXPECT_EQ(map.segments[n].name, fixture.labels[n]);
+  }
+  for (const SegmentationFrame& frame : fixture.frames)
+    for (int j = 0; j < fixture.rows; ++j)
+      for (int i = 0; i < fixture.columns; ++i)
+        ASSERT_EQ(label_at(map.layers[0], frame.position + fixture.along_row * fixture.row_step * i +
+                                              fixture.along_column * fixture.column_step * j),
+                  frame.values[static_cast<std::size_t>(j * fixture.columns + i)]);
 }
 
 class DicomSegmentation : public ::testing::Test {
@@ -145,19 +178,161 @@ TEST_F(DicomSegmentation, SegmentsWithoutVoxelsAreLeftOutWithANote) {
   EXPECT_CONTAINS(map.notes.at(0), "Segment 2 (Nothing) marks no voxel");
 }
 
-TEST_F(DicomSegmentation, RleAndDeflatedAreRead) {
-  SegmentationFixture fixture = random_segmentation(8, 1, 3, 255);
-  const SegmentationFixture plain = fixture;
-  fixture.change = [&](Elements& data) {
-    std::vector<std::string> pieces;
-    for (const SegmentationFrame& frame : fixture.frames) {
-      std::string bytes;
-      for (const int value : frame.values) bytes += static_cast<char>(value);
-      pieces.push_back(rle_frame(bytes, 1));
+/// The encoders refuse smaller ones; frames of bits do not end at whole bytes.
+const SegmentationFixture kLarge = [] {
+  SegmentationFixture fixture;
+  fixture.columns = 43, fixture.rows = 37;
+  return fixture;
+}();
+
+constexpr const char *kJpeg2000Lossless = "1.2.840.10008.1.2.4.90", *kJpegLsLossless = "1.2.840.10008.1.2.4.80",
+                     *kJpegBaselineLossy = "1.2.840.10008.1.2.4.50";
+
+TEST_F(DicomSegmentation, DeflatedIsReadInEveryKind) {
+  for (const int maximum : {0, 255}) {
+    SegmentationFixture fixture = random_segmentation(8, 2, 3, maximum);
+    fixture.encoding = Encoding::kDeflated;
+    expect_holds(read(fixture.file()), fixture);
+  }
+  SegmentationFixture map = label_map(8, 16);
+  map.encoding = Encoding::kDeflated;
+  expect_numbers(read(map.file()), map);
+}
+
+TEST_F(DicomSegmentation, RleIsReadInEveryKind) {
+  for (const int maximum : {0, 255}) {  // 35 bits a frame: packed afresh in each
+    const SegmentationFixture fixture = random_segmentation(8, 2, 3, maximum);
+    expect_holds(read(fixture.file(kRle, [&](const auto& frame) { return rle_frame(fixture.bytes_of(frame), 1); })),
+                 fixture);
+  }
+  for (const int bits : {8, 16}) {
+    const SegmentationFixture map = label_map(9, bits);
+    expect_numbers(read(map.file(kRle,
+                                 [&](const auto& frame) {
+                                   return rle_frame(
+                                       map.bytes_of(frame).substr(0, static_cast<std::size_t>(35 * bits / 8)),
+                                       bits / 8);
+                                 })),
+                   map);
+  }
+}
+
+/// One frame's values as a compressed code, by GDCM's encoders.
+std::string coded(const SegmentationFixture& fixture, const SegmentationFrame& frame, const char* syntax, int stored) {
+  SliceFixture slice;
+  slice.columns = fixture.columns, slice.rows = fixture.rows, slice.is_signed = false;
+  slice.allocated = fixture.label_bits == 16 ? 16 : 8, slice.stored = stored;
+  slice.value = [&](int i, int j) { return frame.values[static_cast<std::size_t>(j * fixture.columns + i)]; };
+  const std::string file = compressed(slice.file(), syntax);
+  const std::size_t start = file.find(syntax == kJpeg2000Lossless ? "\xFF\x4F\xFF" : "\xFF\xD8\xFF");
+  return file.substr(start, file.size() - start - 8);
+}
+
+TEST_F(DicomSegmentation, Jpeg2000AndJpegLsAreRead) {
+  for (const char* syntax : {kJpeg2000Lossless, kJpegLsLossless}) {
+    for (const int bits : {8, 16}) {
+      const SegmentationFixture map = label_map(10, bits, kLarge);
+      expect_numbers(read(map.file(syntax, [&](const auto& frame) { return coded(map, frame, syntax, bits); })), map);
     }
-    data.fragments(pieces);
+    const SegmentationFixture fractions = random_segmentation(12, 1, 3, 255, kLarge);
+    expect_holds(read(fractions.file(syntax, [&](const auto& frame) { return coded(fractions, frame, syntax, 8); })),
+                 fractions);
+  }
+  const SegmentationFixture bits = random_segmentation(13, 2, 3, 0, kLarge);
+  expect_holds(
+      read(bits.file(kJpeg2000Lossless, [&](const auto& frame) { return coded(bits, frame, kJpeg2000Lossless, 1); })),
+      bits);
+}
+
+TEST_F(DicomSegmentation, LabelMapsCarryTheirOwnNumbers) {
+  for (const int bits : {8, 16}) {
+    const SegmentationFixture map = label_map(14, bits);
+    const LabelMap result = read(map.file());
+    EXPECT_TRUE(result.notes.empty()) << result.notes[0];
+    expect_numbers(result, map);
+  }
+}
+
+TEST_F(DicomSegmentation, ALabelMapsBackgroundIsWhatItSays) {
+  SegmentationFixture map = label_map(15, 8);
+  map.labels.insert(map.labels.begin(), "Background"), map.numbers.insert(map.numbers.begin(), 0);
+  EXPECT_TRUE(read(map.file()).notes.empty()) << "a described background is no organ without voxels";
+  map.labels.erase(map.labels.begin()), map.numbers.erase(map.numbers.begin());
+  map.change = [](Elements& data) { data.word(0x00280120, 200); };
+  const LabelMap result = read(map.file());
+  EXPECT_EQ(result.segments.size(), 2U);
+  EXPECT_CONTAINS(result.notes.at(0), "beside the background, number 200");
+}
+
+TEST_F(DicomSegmentation, ALabelMapsPaletteGivesColours) {
+  SegmentationFixture map = label_map(16, 8);
+  map.change = [](Elements& data) {
+    data.text(0x00280004, "CS", "PALETTE COLOR");
+    for (unsigned part = 0; part < 3; ++part) {
+      std::string table;
+      for (int n = 0; n < 256; ++n) table += static_cast<char>(part == 0 ? n : part == 1 ? 255 - n : 7);
+      data.bytes(0x00281101 + part, "US", std::string("\0\1\0\0\x08\0", 6)).bytes(0x00281201 + part, "OW", table);
+    }
   };
-  expect_holds(read(fixture.file(kRle)), plain);
+  const LabelMap result = read(map.file());
+  expect_numbers(result, map);
+  EXPECT_EQ(result.segments.at(2).colour, (SegmentColour{200, 55, 7}));
+}
+
+TEST_F(DicomSegmentation, WhatALabelMapDoesNotSayIsTold) {
+  SegmentationFixture map = label_map(17, 8);
+  map.labels.pop_back(), map.numbers.pop_back();
+  const LabelMap result = read(map.file());
+  EXPECT_EQ(result.segments.at(2).number, 200);
+  EXPECT_EQ(result.segments.at(2).name, "");
+  EXPECT_CONTAINS(result.notes.at(0), "Number 200 marks");
+  SegmentationFixture twice = label_map(17, 8);
+  twice.frames[1].position = twice.frames[2].position;
+  EXPECT_CONTAINS(refusal(twice.file()), "two frames in one place");
+  SegmentationFixture named = label_map(17, 8);
+  named.numbers = {7, 7, 200};
+  EXPECT_CONTAINS(refusal(named.file()), "describes segment 7 twice (Organ 3 and Organ 7)");
+  const SegmentationFixture lossy = label_map(17, 8);
+  EXPECT_CONTAINS(refusal(lossy.file(kJpegBaselineLossy, [](const auto&) { return std::string("xx"); })),
+                  "compressed with loss (JPEG Baseline");
+}
+
+TEST_F(DicomSegmentation, CompressedFramesThatAreCutOffOrMissingAreRefused) {
+  const SegmentationFixture bits = random_segmentation(18, 1, 3), map = label_map(18, 16, kLarge);
+  EXPECT_CONTAINS(
+      refusal(bits.file(kRle, [&](const auto& frame) { return rle_frame(bits.bytes_of(frame), 1).substr(0, 66); })),
+      "RLE pixels are cut off");
+  EXPECT_CONTAINS(
+      refusal(map.file(kJpeg2000Lossless,
+                       [&](const auto& frame) { return coded(map, frame, kJpeg2000Lossless, 16).substr(0, 60); })),
+      "cut off");
+  SegmentationFixture few = map;
+  few.change = [](Elements& data) { data.fragments({"xx"}); };
+  EXPECT_CONTAINS(refusal(few.file(kRle)), "1 compressed pieces for 4 frames");
+  EXPECT_CONTAINS(refusal(map.file(kRle)), "not stored as RLE Lossless, which it claims");
+}
+
+/// Numbers with gaps, as dcmqi keeps label ids, and frames of a segment that nothing describes.
+TEST_F(DicomSegmentation, NumbersMayHaveGapsAndFramesMayBeNobodys) {
+  SegmentationFixture fixture = random_segmentation(19, 2, 3);
+  for (SegmentationFrame& frame : fixture.frames) frame.segment = frame.segment == 2 ? 90 : 1;
+  SegmentationFixture named = fixture;
+  named.numbers = {1, 90};
+  const LabelMap map = read(named.file());
+  ASSERT_EQ(map.segments.size(), 2U);
+  const Segment& last = map.segments[0].number == 90 ? map.segments[0] : map.segments[1];
+  EXPECT_EQ(last.name, "Organ 2");
+  const LabelMap half = read(fixture.file());
+  EXPECT_EQ(half.segments.size(), 1U);
+  EXPECT_CONTAINS(half.notes.back(), "3 frames name no segment that the file describes") << half.notes.size();
+}
+
+TEST_F(DicomSegmentation, ASegmentThatAllFramesShareIsNamedOnce) {
+  SegmentationFixture fixture = random_segmentation(20, 1, 3);
+  const SegmentationFixture plain = fixture;
+  for (SegmentationFrame& frame : fixture.frames) frame.segment = 0;
+  fixture.shared_segment = 1;
+  expect_holds(read(fixture.file()), plain);
 }
 
 TEST_F(DicomSegmentation, WhatIsCutOffOrTooLargeOrFlatIsRefused) {
@@ -188,7 +363,8 @@ TEST_F(DicomSegmentation, FramesThatAreNoVolumeAreRefused) {
   nowhere.change = [](Elements& data) { data.erase(0x52009229); };
   EXPECT_CONTAINS(refusal(nowhere.file()), "no usable ImageOrientationPatient");
   SegmentationFixture coded = whole;
-  EXPECT_CONTAINS(refusal(coded.file("1.2.840.10008.1.2.4.90")), "stored as JPEG 2000 (Lossless Only)");
+  EXPECT_CONTAINS(refusal(coded.file("1.2.840.10008.1.2.4.201")),
+                  "stored as High-Throughput JPEG 2000 (Lossless Only), which cannot be decoded here");
 }
 
 TEST_F(DicomSegmentation, OtherDicomIsRefused) {

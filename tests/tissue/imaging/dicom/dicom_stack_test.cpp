@@ -231,12 +231,12 @@ TEST(PixelCodes, WhatAFrameSaysOfItselfMustFitTheHeader) {
 TEST(PixelCodes, RleMustGiveEveryByte) {
   const DicomImage image = coded(kRle, 5, 6, 16);
   const std::string whole = rle_frame(std::string(60, 'x'), 2);
-  check_compressed_frame(whole, image, "f");
+  EXPECT_EQ(decode_rle_frame(whole, image, "f"), std::string(60, 'x'));
   for (std::size_t length = 0; length + 1 < whole.size(); length += 3)
-    EXPECT_THROW(check_compressed_frame(whole.substr(0, length), image, "f"), InputError) << length;
+    EXPECT_THROW(decode_rle_frame(whole.substr(0, length), image, "f"), InputError) << length;
   std::string wild = whole;
   wild[8] = wild[9] = static_cast<char>(0xFF);
-  EXPECT_CONTAINS(message_of<InputError>([&] { check_compressed_frame(wild, image, "f"); }), "cut off or damaged");
+  EXPECT_CONTAINS(message_of<InputError>([&] { decode_rle_frame(wild, image, "f"); }), "cut off or damaged");
 }
 
 }  // namespace

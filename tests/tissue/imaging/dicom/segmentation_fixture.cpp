@@ -24,28 +24,31 @@ Elements frame_of(const SegmentationFrame& frame, unsigned index) {
   const std::string indices = std::string{static_cast<char>(frame.segment), 0, 0, 0, static_cast<char>(index), 0, 0, 0};
   item.sequence(0x00209111, {Elements().bytes(0x00209157, "UL", indices)});
   item.sequence(0x00209113, {Elements().numbers(0x00200032, {p.x(), p.y(), p.z()})});
-  return item.sequence(0x0062000A, {Elements().word(0x0062000B, static_cast<unsigned>(frame.segment))});
+  return frame.segment == 0
+             ? item
+             : item.sequence(0x0062000A, {Elements().word(0x0062000B, static_cast<unsigned>(frame.segment))});
 }
 
-std::string packed(const std::vector<SegmentationFrame>& frames, bool bits) {
+/// Values of `bits` each, one after the other without a gap.
+std::string packed(const std::vector<SegmentationFrame>& frames, int bits) {
   std::string bytes;
   std::size_t at = 0;
   for (const SegmentationFrame& frame : frames)
     for (const int value : frame.values) {
-      if (!bits || at % 8 == 0) bytes += '\0';
-      bytes.back() =
-          static_cast<char>(bits ? static_cast<unsigned char>(bytes.back()) | (value != 0 ? 1 << at % 8 : 0) : value);
-      ++at;
+      if (bits == 1 && at++ % 8 == 0) bytes += '\0';
+      if (bits == 1 && value != 0)
+        bytes.back() = static_cast<char>(static_cast<unsigned char>(bytes.back()) | 1U << (at - 1) % 8);
+      for (int shift = 0; bits > 1 && shift < bits; shift += 8) bytes += static_cast<char>(value >> shift & 0xFF);
     }
   if (bytes.size() % 2 != 0) bytes += '\0';
   return bytes;
 }
 
-Elements dimensions() {
+Elements dimensions(Encoding encoding) {
   const auto pointer = [](const std::string& tag, const std::string& group) {
     return Elements().text(0x00209164, "UI", "1.2.7").bytes(0x00209165, "AT", tag).bytes(0x00209167, "AT", group);
   };
-  Elements data;
+  Elements data(encoding);
   data.sequence(0x00209222, {pointer(std::string("\x62\0\x0B\0", 4), std::string("\x62\0\x0A\0", 4)),
                              pointer(std::string("\x20\0\x32\0", 4), std::string("\x20\0\x13\x91", 4))});
   return data;
@@ -54,10 +57,10 @@ Elements dimensions() {
 }  // namespace
 
 Elements SegmentationFixture::elements() const {
-  Elements data = dimensions();
+  Elements data = dimensions(encoding);
   data.sequence(0x00209221, {Elements().text(0x00209164, "UI", "1.2.7")});
   data.text(0x00080008, "CS", "DERIVED\\PRIMARY")
-      .text(0x00080016, "UI", kSegmentationClass)
+      .text(0x00080016, "UI", label_bits != 0 ? kLabelMapClass : kSegmentationClass)
       .text(0x00080018, "UI", "1.2.3.8.1");
   data.text(0x00080060, "CS", "SEG")
       .text(0x0020000D, "UI", "1.2.3")
@@ -66,27 +69,45 @@ Elements SegmentationFixture::elements() const {
   data.text(0x00200013, "IS", "1").text(0x00200052, "UI", "1.2.9").text(0x00209311, "CS", "3D");
   data.word(0x00280002, 1).text(0x00280004, "CS", "MONOCHROME2").text(0x00280008, "IS", std::to_string(frames.size()));
   data.word(0x00280010, static_cast<unsigned>(rows)).word(0x00280011, static_cast<unsigned>(columns));
-  const unsigned bits = maximum == 0 ? 1 : 8;
+  const auto bits = static_cast<unsigned>(label_bits != 0 ? label_bits : maximum == 0 ? 1 : 8);
   data.word(0x00280100, bits)
       .word(0x00280101, bits)
       .word(0x00280102, bits - 1)
       .word(0x00280103, 0)
       .text(0x00282110, "CS", "00");
-  data.text(0x00620001, "CS", maximum == 0 ? "BINARY" : "FRACTIONAL")
+  data.text(0x00620001, "CS",
+            label_bits != 0 ? "LABELMAP"
+            : maximum == 0  ? "BINARY"
+                            : "FRACTIONAL")
       .text(0x00700080, "CS", "SEG")
       .text(0x00700081, "LO", "");
   if (maximum != 0) data.text(0x00620010, "CS", "OCCUPANCY").word(0x0062000E, static_cast<unsigned>(maximum));
   std::vector<Elements> segments, groups;
-  for (std::size_t n = 0; n < labels.size(); ++n) segments.push_back(segment_of(static_cast<int>(n + 1), labels[n]));
+  for (std::size_t n = 0; n < labels.size(); ++n)
+    segments.push_back(segment_of(numbers.empty() ? static_cast<int>(n + 1) : numbers[n], labels[n]));
   for (std::size_t n = 0; n < frames.size(); ++n) groups.push_back(frame_of(frames[n], static_cast<unsigned>(n + 1)));
   Elements shared;
   const Eigen::Vector3d &u = along_row, &v = along_column;
   shared.sequence(0x00209116, {Elements().numbers(0x00200037, {u.x(), u.y(), u.z(), v.x(), v.y(), v.z()})});
   shared.sequence(0x00289110, {Elements().numbers(0x00180050, {99}).numbers(0x00280030, {column_step, row_step})});
+  if (shared_segment != 0)
+    shared.sequence(0x0062000A, {Elements().word(0x0062000B, static_cast<unsigned>(shared_segment))});
   data.sequence(0x00620002, segments).sequence(0x52009229, {shared}).sequence(0x52009230, groups);
-  data.bytes(0x7FE00010, bits == 1 ? "OB" : "OB", packed(frames, bits == 1));
+  data.bytes(0x7FE00010, bits == 16 ? "OW" : "OB", packed(frames, static_cast<int>(bits)));
   change(data);
   return data;
+}
+
+std::string SegmentationFixture::bytes_of(const SegmentationFrame& frame) const {
+  return packed({frame}, label_bits != 0 ? label_bits : maximum == 0 ? 1 : 8);
+}
+
+std::string SegmentationFixture::file(const std::string& syntax,
+                                      const std::function<std::string(const SegmentationFrame&)>& coded) const {
+  Elements data = elements();
+  std::vector<std::string> pieces;
+  for (const SegmentationFrame& frame : frames) pieces.push_back(coded(frame));
+  return dicom_file(data.fragments(pieces), syntax);
 }
 
 Elements structure_set(const std::vector<StructureFixture>& structures) {

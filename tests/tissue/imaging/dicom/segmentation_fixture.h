@@ -12,7 +12,7 @@
 namespace trocar::test {
 
 /// One frame of a segmentation: the segment (from 1), where it lies (LPS) and its values, row by row (0 or 1, or
-/// 0..maximum).
+/// 0..maximum, or numbers of segments).
 struct SegmentationFrame {
   int segment = 1;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -25,11 +25,19 @@ struct SegmentationFixture {
   double row_step = 0.5, column_step = 0.75;
   std::vector<std::string> labels{"Liver"};
   std::vector<SegmentationFrame> frames;
-  int maximum = 0;  ///< 0: binary
+  int maximum = 0;                          ///< 0: binary
+  int label_bits = 0;                       ///< 8 or 16: a label map
+  int shared_segment = 0;                   ///< that every frame marks, told once; frames then name 0
+  std::vector<int> numbers;                 ///< of the segments; empty: 1, 2, ...
+  Encoding encoding = Encoding::kExplicit;  ///< explicit or deflated
   std::function<void(Elements&)> change = [](Elements&) {};
 
   Elements elements() const;
   std::string file(const std::string& syntax = "") const { return dicom_file(elements(), syntax); }
+  /// One frame's values as native bytes: packed bits of a binary one.
+  std::string bytes_of(const SegmentationFrame& frame) const;
+  /// Every frame in one fragment, as `coded` makes it of the frame.
+  std::string file(const std::string& syntax, const std::function<std::string(const SegmentationFrame&)>& coded) const;
 };
 
 struct StructureFixture {

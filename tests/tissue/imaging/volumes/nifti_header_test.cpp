@@ -81,13 +81,65 @@ INSTANTIATE_TEST_SUITE_P(
         Spoiled{"pixdim[3]", [](NiftiFixture& f) { f.put(88, kNan); }},
         Spoiled{"both 0", [](NiftiFixture& f) { f.put<std::int16_t>(254, 0); }},
         Spoiled{"unknown code", [](NiftiFixture& f) { f.put<std::int16_t>(254, 99); }},
-        Spoiled{"xyzt_units", [](NiftiFixture& f) { f.put<std::uint8_t>(123, 1); }},
+        Spoiled{"xyzt_units says metres", [](NiftiFixture& f) { f.put<std::uint8_t>(123, 1); }},
+        Spoiled{"--unit mm", [](NiftiFixture& f) { f.put<std::uint8_t>(123, 3); }},
         Spoiled{"not finite", [](NiftiFixture& f) { f.put(280, kNan); }},
         Spoiled{"not finite", [](NiftiFixture& f) { f.put(292, std::numeric_limits<float>::infinity()); }},
         Spoiled{"voxel size", [](NiftiFixture& f) { f.put(280, 0.0F); }},
         Spoiled{"one plane", [](NiftiFixture& f) { f.put(284, 9.0F); }},
         Spoiled{"quatern", [](NiftiFixture& f) { f.put<std::int16_t>(252, 1), f.put(256, kNan); }},
         Spoiled{"100 m", [](NiftiFixture& f) { f.put(292, 1e9F); }}));
+
+/// A fixture whose lengths are in a unit of so many millimetres, by sform or by qform.
+NiftiFixture in_unit(std::uint8_t code, double millimetres, bool sform) {
+  Eigen::Affine3d frame = Eigen::Affine3d::Identity();
+  frame.linear() = Eigen::Vector3d(2, 1.5, 3).asDiagonal();
+  frame.translation() = Eigen::Vector3d(-40, 12, 100);
+  NiftiFixture file({6, 5, 4}, Eigen::Scaling(1 / millimetres) * frame);
+  file.put<std::uint8_t>(123, code);
+  if (sform) return file;
+  file.put<std::int16_t>(254, 0), file.put<std::int16_t>(252, 1);
+  for (std::size_t n = 0; n < 3; ++n)
+    file.put(268 + 4 * n, static_cast<float>(frame.translation()[static_cast<int>(n)] / millimetres));
+  return file;
+}
+
+TEST(NiftiHeader, LengthsInMetresOrMicrometresAreBroughtToMillimetres) {
+  const Eigen::Affine3d wanted = parse_nifti_header(in_unit(2, 1, true).header_array(), "f").index_to_ras_mm;
+  for (const auto& [code, millimetres, word] : {std::tuple(1, 1e3, "metres"), std::tuple(3, 1e-3, "micrometres")})
+    for (const bool sform : {true, false}) {
+      const NiftiHeader header =
+          parse_nifti_header(in_unit(static_cast<std::uint8_t>(code), millimetres, sform).header_array(), "f");
+      EXPECT_TRUE(header.index_to_ras_mm.isApprox(wanted, 1e-6)) << word << header.index_to_ras_mm.matrix();
+      ASSERT_EQ(header.notes.size(), 1U);
+      EXPECT_EQ(header.notes[0], "xyzt_units says " + std::string(word) + "; lengths were brought to millimetres");
+    }
+}
+
+TEST(NiftiHeader, TheCallersUnitGoesBeforeADoubtfulOne) {
+  const Eigen::Affine3d wanted = parse_nifti_header(in_unit(2, 1, true).header_array(), "f").index_to_ras_mm;
+  for (const int code : {0, 1, 3, 7}) {
+    const NiftiHeader header =
+        parse_nifti_header(in_unit(static_cast<std::uint8_t>(code), 10, true).header_array(), "f", "cm");
+    EXPECT_TRUE(header.index_to_ras_mm.isApprox(wanted, 1e-6)) << code;
+    EXPECT_CONTAINS(header.notes.at(0), "cm was taken, as --unit says");
+  }
+  EXPECT_CONTAINS(
+      test::message_of<InputError>([&] { parse_nifti_header(in_unit(2, 1, true).header_array(), "f", "m"); }),
+      "NIfTI is in mm");
+  EXPECT_CONTAINS(parse_nifti_header(in_unit(0, 1, true).header_array(), "f").notes.at(0), "millimetres assumed");
+}
+
+TEST(NiftiHeader, NegativeVoxelSizesHaveNoMeaningOfTheirOwn) {
+  for (const bool sform : {true, false}) {
+    NiftiFixture file = in_unit(2, 1, sform);
+    const Eigen::Affine3d wanted = parse_nifti_header(file.header_array(), "f").index_to_ras_mm;
+    file.put(80, -2.0F), file.put(88, -3.0F);
+    const NiftiHeader header = parse_nifti_header(file.header_array(), "f");
+    EXPECT_TRUE(header.index_to_ras_mm.isApprox(wanted, 1e-9));
+    EXPECT_CONTAINS(header.notes.at(0), sform ? "the sform says which way" : "the qform says which way");
+  }
+}
 
 TEST(NiftiHeader, ReadsTheOtherByteOrder) {
   const NiftiFixture file({6, 5, 4}, oblique_frame());
