@@ -233,8 +233,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
                            const fs::path& stem) {
   const std::vector<OrganNaming> names = name_labels(options, labels, source.map, source.stem, source.file, true);
   const std::vector<SceneRequest> requests = requests_of(options, labels);
-  CompiledScene scene =
-      compile_scene(source.map, requests, {{.only_largest = options.largest_only}, options.progress});
+  CompiledScene scene = compile_scene(source.map, requests, {{.only_largest = options.largest_only}, options.progress});
   WrittenOrgans written;
   for (std::size_t n = 0; n < labels.size(); ++n)
     written.organs.push_back(

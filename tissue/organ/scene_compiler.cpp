@@ -222,7 +222,8 @@ class GroupCompiler {
       note_mask(m.mask, volume_.voxel_volume_ml(), organ.facts);
       organ.facts.voxel_m = std::cbrt(volume_.voxel_volume_ml() * 1e-6);
       organ.facts.repairs.push_back("smoothed and remeshed together with its neighbours to " +
-                                    std::to_string(organ.surface.triangles.size()) + " triangles, its free faces moved to keep the volume");
+                                    std::to_string(organ.surface.triangles.size()) +
+                                    " triangles, its free faces moved to keep the volume");
       TriangleSurface sharp = isosurface(sharp_field(m.mask), Vec3::Ones(), 0.5);
       map_vertices(sharp, box_to_ras_m(volume_, m.mask));
       organ.facts.self_intersections = count_self_intersections(organ.surface);

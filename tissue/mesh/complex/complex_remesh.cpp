@@ -102,7 +102,8 @@ class DenseComplex {
     }
   }
 
-  /// Beside a finer organ an organ becomes finer by and by: short edges of a curve would be the bases of thin triangles.
+  /// Beside a finer organ an organ becomes finer by and by: short edges of a curve would be the bases of thin
+  /// triangles.
   static void limit_together(const LabelComplex& dense, std::vector<std::vector<double>>& wanted) {
     std::vector<double> smallest = wanted[0];
     for (const auto& sizes : wanted)
@@ -350,7 +351,8 @@ class ComplexRemesher {
       after = std::max(after, sharpest_cosine(fresh.points));
       if (!agrees(fresh, fan_normal(gone, mesh_.regions(t)))) return false;
       for (const Index corner : corners)
-        if (corner != gone && length(corner, kept) > kMostStretch * std::max(wanted(corner, kept), length(corner, gone)))
+        if (corner != gone &&
+            length(corner, kept) > kMostStretch * std::max(wanted(corner, kept), length(corner, gone)))
           return false;
     }
     return after < before && mesh_.may_collapse(kept, gone) && collapse_clear(kept, gone, mesh_.place(kept));

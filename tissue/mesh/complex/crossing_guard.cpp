@@ -53,7 +53,8 @@ template <typename Visit>
 void CrossingGuard::for_cells(const Range& range, Visit visit) const {
   for (int k = range[2][0]; k <= range[2][1]; ++k)
     for (int j = range[1][0]; j <= range[1][1]; ++j)
-      for (int i = range[0][0]; i <= range[0][1]; ++i) visit(slot_of(i) + slot_of(size_[0]) * (slot_of(j) + slot_of(size_[1]) * slot_of(k)));
+      for (int i = range[0][0]; i <= range[0][1]; ++i)
+        visit(slot_of(i) + slot_of(size_[0]) * (slot_of(j) + slot_of(size_[1]) * slot_of(k)));
 }
 
 void CrossingGuard::set(Index t, const NumberedTriangle& triangle) {

@@ -74,7 +74,7 @@ std::vector<double> curvatures(const TriangleSurface& surface, const Neighbours&
 
 /// Sweeps to and fro until nothing changes.
 void limit_size_growth(std::vector<double>& sizes, const TriangleSurface& surface, const Neighbours& neighbours,
-                  double growth) {
+                       double growth) {
   std::vector<std::uint8_t> stale(sizes.size(), 1);  // a neighbour was lowered since this one was looked at
   const auto lower = [&](std::size_t v) {
     bool changed = false;

@@ -86,8 +86,7 @@ std::vector<SurfaceCrossing> surface_crossings(const std::vector<const TriangleS
   const std::vector<OwnedTriangle> owned = owned_triangles(surfaces);
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
   std::vector<Box> boxes;
-  for (std::size_t n = 0; n < owned.size(); ++n)
-    boxes.emplace_back(box_of(owned[n].triangle), n);
+  for (std::size_t n = 0; n < owned.size(); ++n) boxes.emplace_back(box_of(owned[n].triangle), n);
   std::map<std::array<std::size_t, 2>, std::size_t> found;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
     const OwnedTriangle &a = owned[p.info()], &b = owned[q.info()];
