@@ -18,7 +18,6 @@
 #include "tissue/imaging/labels/label_table_file.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/imaging/volumes/volume_reader.h"
-#include "tissue/organ/mesh_alone.h"
 #include "tissue/organ/organ_compiler.h"
 #include "tissue/organ/scene_compiler.h"
 #include "tissue/organ/surface_import.h"
@@ -234,9 +233,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
                            const fs::path& stem) {
   const std::vector<OrganNaming> names = name_labels(options, labels, source.map, source.stem, source.file, true);
   const std::vector<SceneRequest> requests = requests_of(options, labels);
-  const SceneOptions how{{.only_largest = options.largest_only}, options.progress};
-  CompiledScene scene = compile_scene(source.map, requests, how);
-  mesh_alone_what_cuts_itself(source.map, requests, how, scene);
+  CompiledScene scene = compile_scene(source.map, requests, {{.only_largest = options.largest_only}, options.progress});
   WrittenOrgans written;
   for (std::size_t n = 0; n < labels.size(); ++n)
     written.organs.push_back(

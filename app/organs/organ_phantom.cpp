@@ -116,6 +116,10 @@ WrittenOrgans import_phantom_scene(const OrganPhantomOptions& options, std::ostr
   return import_organs(import, err);
 }
 
+bool sound(const std::vector<CompiledMember>& organs, const std::vector<OrganCrossing>& crossings) {
+  return faults_of(organs, crossings).empty();
+}
+
 CompiledMember import_phantom_organ(const OrganPhantomOptions& options, const std::string& label, int triangles,
                                     std::ostream& err) {
   OrganImportOptions import = phantom_import(options, label);
@@ -130,8 +134,10 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   if (options.out.empty()) throw InputError("--out: no folder given");
   write_volumes(options);
   nlohmann::ordered_json organs = nlohmann::ordered_json::array();
+  bool all_sound = true;
   for (const auto& [label, triangles] : {std::pair("liver", 6000), std::pair("gallbladder", 2000)}) {
     const CompiledMember organ = import_phantom_organ(options, label, triangles, err);
+    all_sound = all_sound && sound({organ}, {});
     if (options.json)
       organs.push_back(nlohmann::ordered_json::parse(organ_json(organ.manifest, organ.surface.bounds())));
     if (!options.json) out << organ_text(organ.manifest, organ.surface.bounds());
@@ -139,6 +145,7 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
   nlohmann::ordered_json scene;
   if (options.scene) {
     const WrittenOrgans abdomen = import_phantom_scene(options, err);
+    all_sound = all_sound && sound(abdomen.organs, abdomen.set->crossings);
     scene = nlohmann::ordered_json::parse(scene_report_json(*abdomen.set, abdomen.organs));
     if (!options.json) out << scene_report_text(*abdomen.set, abdomen.organs);
   }
@@ -153,7 +160,7 @@ int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::os
                                       {"organs", organs},
                                       {"scene", scene}};
   if (options.json) out << report.dump(2) << "\n";
-  return 0;
+  return all_sound ? 0 : 2;
 }
 
 void add_organ_phantom(CLI::App& parent, CommandAction& chosen) {

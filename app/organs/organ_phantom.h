@@ -26,7 +26,7 @@ struct OrganPhantomOptions {
   Progress progress = {};
 };
 
-/// @return exit code 0
+/// @return exit code 0; 2 when an organ cuts itself or another
 /// @throws InputError for an unknown variant or a voxel size out of range
 int organ_phantom(const OrganPhantomOptions& options, std::ostream& out, std::ostream& err);
 

@@ -5,6 +5,9 @@
 #include <sstream>
 
 #include "tissue/imaging/labels/smooth_field.h"
+#include "tissue/mesh/complex/complex_remesh.h"
+#include "tissue/mesh/complex/complex_volume.h"
+#include "tissue/mesh/complex/crossing_guard.h"
 #include "tissue/mesh/surface/edge_sizes.h"
 #include "tissue/mesh/surface/label_surface.h"
 #include "tissue/mesh/surface/measured_facts.h"
@@ -66,6 +69,24 @@ std::vector<double> sizes_for(const TriangleSurface& source, int triangles, doub
   return edge_sizes(source, sizes);
 }
 
+/// Remeshes a surface that does not cut itself so that no step makes it do so.
+Remeshed remesh_guarded(const TriangleSurface& source, const CompileOptions& options, double volume_m3,
+                        double smoothing_m, const std::vector<CapPlane>& planes) {
+  LabelComplex complex{source.vertices, source.triangles, {}};
+  for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
+  for (auto& triangle : complex.triangles) std::swap(triangle[1], triangle[2]);
+  complex.regions.assign(complex.triangles.size(), {0, 1});
+  ComplexRemeshOptions remesh;
+  remesh.triangles = {options.triangles}, remesh.smoothing_m = smoothing_m, remesh.progress = options.progress;
+  complex = remeshed(complex, remesh);
+  LabelComplex full = complex;
+  correct_volumes(full, {volume_m3}, smoothing_m, CapKeeper(planes, full.vertices));
+  move_without_crossing(complex, full.vertices);
+  Remeshed result{complex.border(1), 0};
+  result.self_intersections = count_self_intersections(result.surface);
+  return result;
+}
+
 /// Remeshes to about `triangles`, fits, corrects the volume, and tries again when the result cuts itself.
 Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options, double volume_m3, double smoothing_m,
                    const std::vector<CapPlane>& planes, std::vector<std::string>& repairs) {
@@ -91,7 +112,15 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
       return result;
     }
     repairs.push_back(what + ": " + std::to_string(result.self_intersections) + " self-intersections");
-    if (best.surface.triangles.empty() || result.self_intersections < best.self_intersections) best = std::move(result);
+    if (best.surface.triangles.empty()) {
+      best = remesh_guarded(source, options, volume_m3, smoothing_m, planes);
+      if (best.self_intersections == 0) {
+        repairs.push_back("remeshed to " + std::to_string(best.surface.triangles.size()) +
+                          " triangles by steps after none of which it cuts itself");
+        return best;
+      }
+    }
+    if (result.self_intersections < best.self_intersections) best = std::move(result);
   }
   repairs.push_back("kept the attempt with the fewest self-intersections, " + std::to_string(best.self_intersections));
   return best;

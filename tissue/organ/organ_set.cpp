@@ -206,7 +206,7 @@ void require_sound(const Organ& organ) {
   };
   add(organ);
   for (const Organ& other : organ.adjacent) add(other);
-  const std::vector<std::string> faults = faults_of(members, {});
+  const std::vector<std::string> faults = faults_of(members, organ_crossings(members));
   if (faults.empty()) return;
   std::string text = organ.manifest.string() + ": no exercise can be done on it: " + faults.front();
   if (faults.size() > 1) text += ", and " + std::to_string(faults.size() - 1) + " more faults";

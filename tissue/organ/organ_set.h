@@ -86,8 +86,8 @@ void enter_surfaces(const std::filesystem::path& stem, OrganSet& set, std::vecto
 std::vector<std::string> faults_of(const std::vector<CompiledMember>& members,
                                    const std::vector<OrganCrossing>& crossings);
 
-/// @throws InputError naming the file when the organ's surface or that of an adjacent one cuts itself: contact and
-/// cutting need an inside and an outside everywhere. Organs that cut each other pass (decision 0032)
+/// @throws InputError naming the file when the organ's surface or that of an adjacent one cuts itself or another:
+/// contact and cutting need an inside and an outside everywhere
 void require_sound(const Organ& organ);
 
 /// Writes STEM.scene.toml, STEM-<organ>.organ.toml and .ply for each organ and the further files, all or nothing:

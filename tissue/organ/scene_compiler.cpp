@@ -10,6 +10,7 @@
 #include "haptics/input_error.h"
 #include "tissue/mesh/complex/complex_remesh.h"
 #include "tissue/mesh/complex/complex_volume.h"
+#include "tissue/mesh/complex/crossing_guard.h"
 #include "tissue/mesh/complex/scene_fields.h"
 #include "tissue/mesh/surface/isosurface.h"
 #include "tissue/mesh/surface/label_surface.h"
@@ -116,7 +117,7 @@ class GroupCompiler {
 
   void compile(CompiledScene& scene) {
     LabelComplex dense = dense_complex();
-    const LabelComplex result = best_remeshing(dense, scene.notes);
+    const LabelComplex result = coarse_complex(dense);
     add_organs(result, scene);
     add_shared(result, scene);
     add_attachments(result, scene);
@@ -171,6 +172,7 @@ class GroupCompiler {
       report(options_.progress, "finding the interfaces", static_cast<double>(round) / kRounds);
       complex = label_complex(fields, size_, spacing_m_, kLeastSamples);
       map_to_ras(complex);
+      for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
       for (std::size_t n = 0; n < members_.size(); ++n) {
         const TriangleSurface border = complex.border(static_cast<int>(n + 1));
         if (border.triangles.empty())
@@ -184,47 +186,16 @@ class GroupCompiler {
     return complex;
   }
 
-  LabelComplex best_remeshing(const LabelComplex& dense, std::vector<std::string>& notes) {
-    std::optional<LabelComplex> best;
-    std::size_t fewest = 0;
-    for (const int sweeps : {3, 1, 0}) {
-      ComplexRemeshOptions remesh;
-      for (const Member& m : members_) remesh.triangles.push_back(requests_[m.request].triangles);
-      remesh.smoothing_m = 2 * spacing_m_.maxCoeff(), remesh.fit_sweeps = sweeps, remesh.progress = options_.progress;
-      LabelComplex result = remeshed(dense, remesh);
-      correct_volumes(result);
-      for (Vec3& vertex : result.vertices) vertex = vertex.cast<float>().cast<double>();
-      const std::size_t cuts = smooth_cuts(result);
-      if (!best || cuts < fewest) best = std::move(result), fewest = cuts, sweeps_ = sweeps;
-      if (cuts == 0) break;
-      notes.push_back("a common remeshing with " + std::to_string(sweeps) + " fit sweeps left " + std::to_string(cuts) +
-                      " triangles that cut others");
-    }
-    return std::move(*best);
-  }
-
-  std::vector<std::int32_t> cut_triangles(const LabelComplex& complex) const {
-    std::set<std::int32_t> found;
-    for (std::size_t n = 0; n < members_.size(); ++n) {
-      std::vector<std::int32_t> source;
-      for (const auto t : self_intersecting(complex.border(static_cast<int>(n + 1), &source)))
-        found.insert(source[static_cast<std::size_t>(t)]);
-    }
-    return {found.begin(), found.end()};
-  }
-
-  /// Smooths where organs cut themselves, a few times. @return triangles that still do
-  std::size_t smooth_cuts(LabelComplex& complex) const {
-    constexpr int kRounds = 12;
-    std::size_t cuts = 0;
-    for (int round = 0; round <= kRounds; ++round) {
-      const auto triangles = cut_triangles(complex);
-      cuts = triangles.size();
-      if (cuts == 0 || round == kRounds) break;
-      smooth_locally(complex, triangles);
-      for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
-    }
-    return cuts;
+  /// Nothing crosses in the dense complex, and no step is made after which something would.
+  LabelComplex coarse_complex(const LabelComplex& dense) const {
+    ComplexRemeshOptions remesh;
+    for (const Member& m : members_) remesh.triangles.push_back(requests_[m.request].triangles);
+    remesh.smoothing_m = 2 * spacing_m_.maxCoeff(), remesh.progress = options_.progress;
+    LabelComplex result = remeshed(dense, remesh);
+    LabelComplex full = result;
+    correct_volumes(full);
+    move_without_crossing(result, full.vertices);
+    return result;
   }
 
   /// Moves the free faces of each organ along their normals; what two organs share stays.
@@ -251,8 +222,8 @@ class GroupCompiler {
       note_mask(m.mask, volume_.voxel_volume_ml(), organ.facts);
       organ.facts.voxel_m = std::cbrt(volume_.voxel_volume_ml() * 1e-6);
       organ.facts.repairs.push_back("smoothed and remeshed together with its neighbours to " +
-                                    std::to_string(organ.surface.triangles.size()) + " triangles, fitted in " +
-                                    std::to_string(sweeps_) + " sweeps, its free faces moved to keep the volume");
+                                    std::to_string(organ.surface.triangles.size()) +
+                                    " triangles, its free faces moved to keep the volume");
       TriangleSurface sharp = isosurface(sharp_field(m.mask), Vec3::Ones(), 0.5);
       map_vertices(sharp, box_to_ras_m(volume_, m.mask));
       organ.facts.self_intersections = count_self_intersections(organ.surface);
@@ -341,7 +312,6 @@ class GroupCompiler {
   std::array<int, 3> low_{}, size_{};
   Vec3 spacing_m_ = Vec3::Ones();
   Eigen::Affine3d to_ras_ = Eigen::Affine3d::Identity();
-  int sweeps_ = 0;
 };
 
 void compile_alone(const LabelVolume& volume, const std::vector<SceneRequest>& requests, std::size_t n,

@@ -120,8 +120,7 @@ TEST(ImportSource, NoWrittenFileOfADicomImportNamesTheFolder) {
   options.report = folder / "soft.html";
   options.triangles = 600, options.material = "soft_tissue";
   std::ostringstream out, err;
-  ASSERT_EQ(organ_import(options, out, err), 2);
-  EXPECT_CONTAINS(err.str(), "cuts itself");  // so few triangles of so rough a window: written, and told
+  ASSERT_EQ(organ_import(options, out, err), 0) << err.str();  // so rough a window, and it does not cut itself
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
     if (!entry.is_regular_file()) continue;

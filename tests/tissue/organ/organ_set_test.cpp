@@ -61,7 +61,7 @@ TEST(OrganSet, ComesBackWithSubjectAndAdjacentOrgansInOneFrame) {
   EXPECT_EQ(organ.manifest, written.path);
 }
 
-TEST(OrganSet, OrgansThatCrossAreToldInTheFile) {
+TEST(OrganSet, OrgansThatCrossAreToldInTheFileAndRefusedByExercises) {
   test::TemporaryFolder folder;
   Written sound = write(folder);
   EXPECT_TRUE(sound.set.crossings.empty());
@@ -78,6 +78,8 @@ TEST(OrganSet, OrgansThatCrossAreToldInTheFile) {
   const std::vector<std::string> faults = faults_of(organs, read.crossings);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_CONTAINS(faults[0], "liver and spleen cut each other: " + std::to_string(read.crossings[0].pairs));
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { require_sound(load_organ(path)); }),
+                  "no exercise can be done on it: liver and spleen cut each other");
 }
 
 TEST(OrganSet, WhatTheManifestSaysIsCountedOnWhatTheFileHolds) {

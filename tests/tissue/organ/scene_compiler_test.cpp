@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "haptics/input_error.h"
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/mesh/complex/complex_mesh.h"
+#include "tissue/mesh/surface/surface_check.h"
 #include "tissue/organ/ply_file.h"
 
 namespace trocar::scene_compiler_test {
@@ -170,6 +172,67 @@ TEST(ComplexMesh, RandomEditsKeepEveryBorderAClosedManifold) {
     const SurfaceTopology facts = analyse_topology(edited.border(region));
     EXPECT_TRUE(facts.closed() && facts.nonmanifold_edges == 0 && facts.misoriented_edges == 0) << region;
   }
+}
+
+/// Labels of a volume of anisotropic voxels by their place in mm.
+template <typename Label>
+LabelMap drawn_map(const std::array<int, 3>& size, const Vec3& voxel_mm, Label label) {
+  LabelVolume volume;
+  volume.size = size;
+  volume.index_to_ras_mm.linear() = voxel_mm.asDiagonal();
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i)
+        volume.labels.push_back(static_cast<std::uint16_t>(label(Vec3(i, j, k).cwiseProduct(voxel_mm))));
+  LabelMap map;
+  map.layers.push_back(std::move(volume));
+  return map;
+}
+
+void expect_no_crossings(const CompiledScene& scene, double most_volume_error_pct) {
+  std::vector<const TriangleSurface*> surfaces;
+  for (const CompiledOrgan& organ : scene.organs) {
+    EXPECT_TRUE(organ.facts.topology.closed() && organ.facts.topology.manifold());
+    EXPECT_EQ(count_self_intersections(organ.surface), 0U);
+    EXPECT_NEAR(organ.facts.kept_error_pct, 0, most_volume_error_pct);
+    surfaces.push_back(&organ.surface);
+  }
+  EXPECT_TRUE(surface_crossings(surfaces).empty());
+}
+
+TEST(SceneCompiler, ThinLabelsThatTouchDoNotCross) {  // three sheets of a voxel or two, waved, one on the other
+  const LabelMap map = drawn_map({44, 44, 24}, Vec3::Constant(2), [](const Vec3& p) {
+    const double height = p.z() - 20 - 5 * std::sin(p.x() / 9) * std::cos(p.y() / 7);
+    if (p.x() < 8 || p.x() > 78 || p.y() < 8 || p.y() > 78) return 0;
+    return height < 0 ? 0 : height < 2.4 ? 1 : height < 5.5 ? 2 : height < 8 ? 3 : 0;
+  });
+  expect_no_crossings(compile_scene(map, {{0, 1, "", 400}, {0, 2, "", 400}, {0, 3, "", 400}}, {}),
+                      15);  // a voxel thick
+}
+
+TEST(SceneCompiler, VesselsThatEnterAnOrganDoNotCrossIt) {  // two tubes of three voxels into a ball, one through it
+  const LabelMap map = drawn_map({40, 40, 40}, Vec3::Constant(2), [](const Vec3& p) {
+    const Vec3 q = p - Vec3::Constant(39);
+    const double first = Vec3(0, q.y() - 6, q.z() - 0.3 * q.x()).norm(), second = Vec3(q.x() + 5, 0, q.z() + 8).norm();
+    if (first < 3.2 && q.x() > -4 && q.x() < 36) return 2;
+    if (second < 2.6 && std::abs(q.y()) < 36) return 3;
+    return q.norm() < 24 ? 1 : 0;
+  });
+  expect_no_crossings(compile_scene(map, {{0, 1, "", 500}, {0, 2, "", 500}, {0, 3, "", 500}}, {}), 1);
+}
+
+TEST(SceneCompiler, RibsOnThickSlicesDoNotCross) {  // oblique rods on slices of 10 mm, over a lung
+  const LabelMap map = drawn_map({60, 60, 14}, {2, 2, 10}, [](const Vec3& p) {
+    const Vec3 q = p - Vec3(59, 59, 65);
+    const double radius = std::hypot(q.x(), q.y());
+    for (int rib = 0; rib < 4; ++rib)
+      if (std::abs(radius - 46) < 5 && std::abs(q.z() + 38 - 26 * rib - 0.45 * q.y()) < 7 && q.x() < 30) return rib + 2;
+    return Vec3(q.x(), q.y(), q.z() / 1.3).norm() < 41 ? 1 : 0;
+  });
+  const CompiledScene scene =
+      compile_scene(map, {{0, 1, "", 900}, {0, 2, "", 700}, {0, 3, "", 700}, {0, 4, "", 700}, {0, 5, "", 700}}, {});
+  expect_no_crossings(scene, 1);
+  for (std::size_t n = 1; n < scene.organs.size(); ++n) EXPECT_EQ(scene.organs[n].facts.topology.components, 1U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tissue/mesh/complex/complex_mesh.h"
+#include "tissue/mesh/complex/crossing_guard.h"
 #include "tissue/mesh/surface/edge_sizes.h"
 #include "tissue/mesh/surface/nearest_surface.h"
 #include "tissue/mesh/surface/surface_fit.h"
@@ -21,6 +22,7 @@ using Pair = std::array<std::int16_t, 2>;
 constexpr double kSplitAbove = 4.0 / 3, kCollapseBelow = 4.0 / 5;
 constexpr double kMostScale = 1.2;  ///< an organ whose neighbours are finer gets more triangles rather than long edges
 constexpr double kLeastAgreement = 0.5, kSpikeCosine = 0.95;
+constexpr double kMostStretch = 1.5;  ///< of the edges that mending a sliver leaves
 
 std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
@@ -48,6 +50,7 @@ class DenseComplex {
     constexpr double kEndless = std::numeric_limits<double>::infinity();
     for (auto& sizes : wanted) sizes.assign(dense.vertices.size(), kEndless);
     for (std::size_t region = 1; region < wanted.size(); ++region) size_region(dense, options, region, wanted[region]);
+    limit_together(dense, wanted);
     collect_patches(dense, wanted);
     collect_curves(dense);
   }
@@ -99,6 +102,17 @@ class DenseComplex {
     }
   }
 
+  /// Beside a finer organ an organ becomes finer by and by: short edges of a curve would be the bases of thin
+  /// triangles.
+  static void limit_together(const LabelComplex& dense, std::vector<std::vector<double>>& wanted) {
+    std::vector<double> smallest = wanted[0];
+    for (const auto& sizes : wanted)
+      for (std::size_t v = 0; v < sizes.size(); ++v) smallest[v] = std::min(smallest[v], sizes[v]);
+    limit_growth(smallest, {dense.vertices, dense.triangles}, EdgeSizeOptions{}.growth);
+    for (std::size_t region = 1; region < wanted.size(); ++region)
+      for (std::size_t v = 0; v < smallest.size(); ++v) wanted[region][v] = std::min(wanted[region][v], smallest[v]);
+  }
+
   void collect_patches(const LabelComplex& dense, const std::vector<std::vector<double>>& wanted) {
     std::map<Pair, std::map<Index, Index>> numbers;
     for (std::size_t t = 0; t < dense.triangles.size(); ++t) {
@@ -137,7 +151,11 @@ class DenseComplex {
 class ComplexRemesher {
  public:
   ComplexRemesher(const LabelComplex& dense, const ComplexRemeshOptions& options)
-      : options_(options), source_(dense, options), mesh_(dense), scale_(options.triangles.size() + 1, 1.0) {
+      : options_(options),
+        source_(dense, options),
+        mesh_(dense),
+        guard_(dense),
+        scale_(options.triangles.size() + 1, 1.0) {
     size_.assign(mesh_.vertices(), 0);
     resize_all();
   }
@@ -154,8 +172,12 @@ class ComplexRemesher {
     }
     flip_all();
     relax();
+    constexpr int kPasses = 3;
+    for (int n = 0; n < kPasses; ++n) mend_slivers();
     LabelComplex result = mesh_.compact();
-    for (int n = 0; n < options_.fit_sweeps; ++n) fit(result);
+    LabelComplex closer = result;
+    for (int n = 0; n < options_.fit_sweeps; ++n) fit(closer);
+    move_without_crossing(result, closer.vertices);
     return result;
   }
 
@@ -199,8 +221,7 @@ class ComplexRemesher {
   void split_long() {
     for (const auto& [a, b] : mesh_.edges()) {
       if (length(a, b) <= kSplitAbove * wanted(a, b)) continue;
-      mesh_.split(a, b);
-      size_.push_back((size_[at(a)] + size_[at(b)]) / 2);
+      if (split_clear(a, b)) size_.push_back((size_[at(a)] + size_[at(b)]) / 2);
     }
   }
 
@@ -233,12 +254,146 @@ class ComplexRemesher {
       if (!may_move(kept, gone, place) || !may_move(gone, kept, place)) continue;
       if (!allowed && !mesh_.may_collapse(kept, gone)) return false;
       allowed = true;
-      size_[at(kept)] = (size_[at(kept)] + size_[at(gone)]) / 2;
-      mesh_.collapse(kept, gone);
-      mesh_.place(kept) = place;
-      return true;
+      if (collapse_clear(kept, gone, rounded(place))) return true;
     }
     return false;
+  }
+
+  static Vec3 rounded(const Vec3& place) { return place.cast<float>().cast<double>(); }
+
+  NumberedTriangle numbered(Index t) const {
+    NumberedTriangle result{mesh_.triangle(t), {}};
+    for (std::size_t n = 0; n < 3; ++n) result.points[n] = mesh_.place(result.corners[n]);
+    return result;
+  }
+
+  /// The triangle with another corner, or with the old one elsewhere.
+  NumberedTriangle replaced(Index t, Index corner, Index by, const Vec3& place) const {
+    NumberedTriangle result = numbered(t);
+    for (std::size_t n = 0; n < 3; ++n)
+      if (result.corners[n] == corner) result.corners[n] = by, result.points[n] = place;
+    return result;
+  }
+
+  void tell_guard(const std::vector<Index>& triangles) {
+    for (const Index t : triangles) guard_.set(t, numbered(t));
+  }
+
+  /// @return whether it was done: nothing would come to cross
+  bool collapse_clear(Index kept, Index gone, const Vec3& place) {
+    const std::vector<Index> vanish = mesh_.around(kept, gone);
+    std::vector<Index> old = mesh_.fan(kept);
+    for (const Index t : mesh_.fan(gone))
+      if (std::find(vanish.begin(), vanish.end(), t) == vanish.end()) old.push_back(t);
+    std::vector<NumberedTriangle> fresh;
+    for (const Index t : old) {
+      if (std::find(vanish.begin(), vanish.end(), t) != vanish.end()) continue;
+      const auto& corners = mesh_.triangle(t);
+      const bool of_kept = std::find(corners.begin(), corners.end(), kept) != corners.end();
+      fresh.push_back(replaced(t, of_kept ? kept : gone, kept, place));
+    }
+    if (!guard_.clear(fresh, old)) return false;
+    size_[at(kept)] = (size_[at(kept)] + size_[at(gone)]) / 2;
+    for (const Index t : vanish) guard_.erase(t);
+    mesh_.collapse(kept, gone);
+    mesh_.place(kept) = place;
+    tell_guard(mesh_.fan(kept));
+    return true;
+  }
+
+  /// Flips the longest edge of each thin triangle, or takes its shortest one out, where the angles become larger.
+  void mend_slivers() {
+    for (std::size_t n = 0; n < mesh_.vertices(); ++n) {
+      const auto& now = mesh_.fan(static_cast<Index>(n));
+      const std::vector<Index> fan = now;
+      for (const Index t : fan)
+        if (mesh_.triangle(t)[0] == static_cast<Index>(n) && std::find(now.begin(), now.end(), t) != now.end() &&
+            sharpest_cosine(numbered(t).points) > kThinCosine)
+          mend_sliver(t);
+    }
+  }
+
+  void mend_sliver(Index t) {
+    auto corners = mesh_.triangle(t);  // turned so that the edge from 0 to 1 is the longest one
+    for (int n = 0; n < 2; ++n)
+      if (length(corners[0], corners[1]) < std::max(length(corners[1], corners[2]), length(corners[2], corners[0])))
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    const auto& [a, b, c] = corners;
+    if (flip_sliver(t, a, b, c)) return;
+    const Index near = length(a, c) < length(b, c) ? a : b;
+    const Kind kind_near = mesh_.kind(near), kind_c = mesh_.kind(c);
+    if (kind_near == Kind::corner && kind_c == Kind::corner) return;
+    if (kind_near == Kind::curve && kind_c == Kind::curve && in_small_loop(near)) return;
+    const bool keep_near = kind_near >= kind_c, keep_c = kind_c >= kind_near;
+    if (keep_near && collapse_sliver(near, c)) return;
+    if (keep_c) collapse_sliver(c, near);
+  }
+
+  bool flip_sliver(Index t, Index a, Index b, Index c) {
+    const std::vector<Index> pair = mesh_.around(a, b);
+    if (pair.size() != 2 || mesh_.regions(pair[0]) != mesh_.regions(pair[1])) return false;
+    const Index other = pair[0] == t ? pair[1] : pair[0], d = mesh_.third(other, a, b);
+    const NumberedTriangle first = replaced(t, b, d, mesh_.place(d)), second = replaced(other, a, c, mesh_.place(c));
+    const double before = std::max(sharpest_cosine(numbered(t).points), sharpest_cosine(numbered(other).points));
+    if (std::max(sharpest_cosine(first.points), sharpest_cosine(second.points)) >= before) return false;
+    const Vec3 mean = normal(t) + normal(other);
+    if (!agrees(first, mean) || !agrees(second, mean)) return false;
+    return flip_clear({t, other}, a, b, c, d);
+  }
+
+  bool collapse_sliver(Index kept, Index gone) {
+    double before = 0, after = 0;
+    for (const Index t : mesh_.fan(gone)) {
+      before = std::max(before, sharpest_cosine(numbered(t).points));
+      const auto& corners = mesh_.triangle(t);
+      if (std::find(corners.begin(), corners.end(), kept) != corners.end()) continue;
+      const NumberedTriangle fresh = replaced(t, gone, kept, mesh_.place(kept));
+      after = std::max(after, sharpest_cosine(fresh.points));
+      if (!agrees(fresh, fan_normal(gone, mesh_.regions(t)))) return false;
+      for (const Index corner : corners)
+        if (corner != gone &&
+            length(corner, kept) > kMostStretch * std::max(wanted(corner, kept), length(corner, gone)))
+          return false;
+    }
+    return after < before && mesh_.may_collapse(kept, gone) && collapse_clear(kept, gone, mesh_.place(kept));
+  }
+
+  static bool agrees(const NumberedTriangle& triangle, const Vec3& mean) {
+    const Vec3 n = (triangle.points[1] - triangle.points[0]).cross(triangle.points[2] - triangle.points[0]);
+    return n.dot(mean) > kLeastAgreement * n.norm() * mean.norm();
+  }
+
+  /// @return whether it was done: rounding the middle makes nothing cross
+  bool split_clear(Index a, Index b) {
+    const auto middle = static_cast<Index>(mesh_.vertices());
+    const Vec3 place = rounded((mesh_.place(a) + mesh_.place(b)) / 2);
+    const std::vector<Index> old = mesh_.around(a, b);
+    std::vector<NumberedTriangle> fresh;
+    for (const Index t : old)
+      for (const Index end : {a, b}) fresh.push_back(replaced(t, end, middle, place));
+    if (!guard_.clear(fresh, old)) return false;
+    mesh_.place(mesh_.split(a, b)) = place;
+    tell_guard(mesh_.fan(middle));
+    return true;
+  }
+
+  /// Moves a vertex unless something would come to cross.
+  void move_clear(Index v, const Vec3& place) {
+    std::vector<NumberedTriangle> fresh;
+    for (const Index t : mesh_.fan(v)) fresh.push_back(replaced(t, v, v, place));
+    if (!guard_.clear(fresh, mesh_.fan(v))) return;
+    mesh_.place(v) = place;
+    tell_guard(mesh_.fan(v));
+  }
+
+  /// The triangles (a, b, c) and (b, a, d), in either winding, as flip would leave them.
+  /// @return whether it was done
+  bool flip_clear(const std::vector<Index>& pair, Index a, Index b, Index c, Index d) {
+    if (!guard_.clear({replaced(pair[0], b, d, mesh_.place(d)), replaced(pair[1], a, c, mesh_.place(c))}, pair) ||
+        !mesh_.flip(a, b))
+      return false;
+    tell_guard(pair);
+    return true;
   }
 
   Vec3 normal(Index t) const {
@@ -287,7 +442,7 @@ class ComplexRemesher {
       };
       if (off(a, -1) + off(b, -1) + off(c, 1) + off(d, 1) >= off(a, 0) + off(b, 0) + off(c, 0) + off(d, 0)) continue;
       if (mesh_.fan(a).size() <= 3 || mesh_.fan(b).size() <= 3) continue;
-      if (flip_keeps_shape(normal(pair[0]), normal(pair[1]), pair[0], a, b, c, d)) mesh_.flip(a, b);
+      if (flip_keeps_shape(normal(pair[0]), normal(pair[1]), pair[0], a, b, c, d)) flip_clear(pair, a, b, c, d);
     }
   }
 
@@ -318,7 +473,7 @@ class ComplexRemesher {
       }
     }
     for (const auto& [v, place] : moves)
-      if (!turns_over(v, place)) mesh_.place(v) = place;
+      if (!turns_over(v, place)) move_clear(v, rounded(place));
   }
 
   /// Whether the curve through a vertex closes within five edges: relaxed, such a loop would shrink to a point.
@@ -388,6 +543,7 @@ class ComplexRemesher {
   const ComplexRemeshOptions& options_;
   DenseComplex source_;
   ComplexMesh mesh_;
+  CrossingGuard guard_;
   std::vector<double> scale_;  ///< by region
   std::vector<double> size_;   ///< by vertex
 };

@@ -19,10 +19,6 @@ struct ComplexRemeshOptions {
   Progress progress = {};
 };
 
-/// Moves the vertices of the named triangles, and their neighbours, half-way to the middle of those round them: what
-/// cut itself is smoothed apart. Curves are smoothed along themselves, corners stay.
-void smooth_locally(LabelComplex& complex, const std::vector<std::int32_t>& triangles);
-
 LabelComplex remeshed(const LabelComplex& dense, const ComplexRemeshOptions& options);
 
 }  // namespace trocar

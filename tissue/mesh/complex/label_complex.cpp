@@ -11,6 +11,7 @@ namespace {
 using Index = std::int32_t;
 using Region = std::int16_t;
 
+constexpr std::size_t kIslandSamples = 16;   ///< contacts of no more are parted where the same two have a larger one
 constexpr double kComplexEdgeMargin = 0.08;  ///< share of an edge that a point keeps from its ends
 
 /// The winning region of every sample, and how two regions compare there.
@@ -63,7 +64,60 @@ class Regions {
     }
   }
 
+  /// Parts two regions where they touch in a few samples only, beside a larger contact: such islands would have rims
+  /// far shorter than a wanted edge. The samples of the later region go to the rest.
+  void part_islands() {
+    for (auto& [pair, samples] : contacts()) {
+      std::vector<std::vector<std::size_t>> islands = clusters(samples);
+      const auto largest = std::max_element(islands.begin(), islands.end(),
+                                            [](const auto& a, const auto& b) { return a.size() < b.size(); });
+      for (auto island = islands.begin(); island != islands.end(); ++island)
+        if (island != largest && island->size() <= kIslandSamples)
+          for (const std::size_t sample : *island) winner_[sample] = 0;
+    }
+  }
+
  private:
+  /// Samples of the later of two regions that touch the earlier one along an edge of a tetrahedron, ascending.
+  std::map<std::array<Region, 2>, std::vector<std::size_t>> contacts() const {
+    const std::size_t row = offset(0, 1, 0), slice = offset(0, 0, 1);
+    const std::array<std::size_t, 7> steps{1, row, slice, row + 1, slice + 1, slice + row, slice + row + 1};
+    std::map<std::array<Region, 2>, std::vector<std::size_t>> found;
+    for (std::size_t sample = 0; sample < winner_.size(); ++sample) {
+      if (winner_[sample] < 2) continue;  // the outermost samples are the rest: all neighbours are there
+      for (const std::size_t step : steps)
+        for (const Region other : {winner_[sample - step], winner_[sample + step]})
+          if (other > 0 && other < winner_[sample]) {
+            auto& samples = found[{other, winner_[sample]}];
+            if (samples.empty() || samples.back() != sample) samples.push_back(sample);
+          }
+    }
+    return found;
+  }
+
+  /// Samples that hang together over faces, edges or corners. @param samples ascending
+  std::vector<std::vector<std::size_t>> clusters(const std::vector<std::size_t>& samples) const {
+    const auto row = static_cast<std::ptrdiff_t>(offset(0, 1, 0)), slice = static_cast<std::ptrdiff_t>(offset(0, 0, 1));
+    std::vector<bool> seen(samples.size(), false);
+    std::vector<std::vector<std::size_t>> result;
+    for (std::size_t start = 0; start < samples.size(); ++start) {
+      if (seen[start]) continue;
+      seen[start] = true;
+      std::vector<std::size_t>& cluster = result.emplace_back(1, samples[start]);
+      for (std::size_t n = 0; n < cluster.size(); ++n)
+        for (std::ptrdiff_t around = 0; around < 27; ++around) {
+          const std::size_t next = cluster[n] + static_cast<std::size_t>(around % 3 - 1 + row * (around / 3 % 3 - 1) +
+                                                                         slice * (around / 9 - 1));
+          const auto found = std::lower_bound(samples.begin(), samples.end(), next);
+          if (found == samples.end() || *found != next || seen[static_cast<std::size_t>(found - samples.begin())])
+            continue;
+          seen[static_cast<std::size_t>(found - samples.begin())] = true;
+          cluster.push_back(next);
+        }
+    }
+    return result;
+  }
+
   double own(std::size_t n, const std::array<int, 3>& p) const {
     const RegionField& f = fields_[n];
     const int i = p[0] - f.first[0], j = p[1] - f.first[1], k = p[2] - f.first[2];
@@ -286,6 +340,8 @@ TriangleSurface LabelComplex::border(int region, std::vector<std::int32_t>* sour
 LabelComplex label_complex(const std::vector<RegionField>& fields, const std::array<int, 3>& size,
                            const Vec3& spacing_m, std::size_t least_samples) {
   Regions regions(fields, size);
+  regions.absorb(least_samples);
+  regions.part_islands();
   regions.absorb(least_samples);
   return ComplexMarcher(regions, size, spacing_m).march();
 }

@@ -34,7 +34,7 @@ struct RegionField {
 };
 
 /// Compares the fields; the rest has 1 minus their sum. Pieces of fewer than `least_samples` go to the region round
-/// them.
+/// them; of several contacts of two regions those of a few samples are parted, except the largest.
 /// @param size of the common grid; its outermost samples become the rest
 /// @param spacing_m of its samples
 LabelComplex label_complex(const std::vector<RegionField>& fields, const std::array<int, 3>& size,

@@ -72,9 +72,9 @@ std::vector<double> curvatures(const TriangleSurface& surface, const Neighbours&
   return result;
 }
 
-/// No size exceeds a neighbour's by more than growth x distance: sweeps to and fro until nothing changes.
-void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, const Neighbours& neighbours,
-                  double growth) {
+/// Sweeps to and fro until nothing changes.
+void limit_size_growth(std::vector<double>& sizes, const TriangleSurface& surface, const Neighbours& neighbours,
+                       double growth) {
   std::vector<std::uint8_t> stale(sizes.size(), 1);  // a neighbour was lowered since this one was looked at
   const auto lower = [&](std::size_t v) {
     bool changed = false;
@@ -119,6 +119,10 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, double growth) {
+  limit_size_growth(sizes, surface, neighbours_of(surface), growth);
+}
+
 std::vector<double> edge_sizes(const TriangleSurface& surface, const EdgeSizeOptions& options) {
   if (surface.triangles.empty()) return {};
   const Neighbours neighbours = neighbours_of(surface);
@@ -130,7 +134,7 @@ std::vector<double> edge_sizes(const TriangleSurface& surface, const EdgeSizeOpt
   for (double& size : sizes)
     size =
         even * std::clamp(std::sqrt(reference / std::max(size, kFlat * reference)), options.shortest, options.longest);
-  limit_growth(sizes, surface, neighbours, options.growth);
+  limit_size_growth(sizes, surface, neighbours, options.growth);
   const std::vector<double> areas = vertex_areas_m2(surface);
   double count = 0;
   for (std::size_t v = 0; v < sizes.size(); ++v) count += areas[v] / (kEquilateral * sizes[v] * sizes[v]);

@@ -23,4 +23,7 @@ struct EdgeSizeOptions {
 /// @param surface closed, dense against the wanted triangles
 std::vector<double> edge_sizes(const TriangleSurface& surface, const EdgeSizeOptions& options);
 
+/// Lowers sizes, one a vertex, until none exceeds a neighbour's by more than growth x distance.
+void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, double growth);
+
 }  // namespace trocar

@@ -15,6 +15,7 @@
 #include "tissue/mesh/surface/cgal_mesh.h"
 #include "tissue/mesh/surface/distance_samples.h"
 #include "tissue/mesh/surface/nearest_surface.h"
+#include "tissue/mesh/surface/triangle_crossing.h"
 
 namespace trocar {
 namespace {
@@ -54,45 +55,29 @@ std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> cutting
 /// A triangle of one of several surfaces, its corners numbered by their coordinates: equal ones have one number.
 struct OwnedTriangle {
   std::size_t surface = 0;
-  std::array<std::size_t, 3> corners{};
-  std::array<SurfacePoint, 3> points;
+  NumberedTriangle triangle;
 };
 
 std::vector<OwnedTriangle> owned_triangles(const std::vector<const TriangleSurface*>& surfaces) {
-  std::map<std::array<double, 3>, std::size_t> numbers;
+  std::map<std::array<double, 3>, std::int32_t> numbers;
   std::vector<OwnedTriangle> owned;
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     for (const auto& triangle : surfaces[s]->triangles) {
-      OwnedTriangle one{s, {}, {}};
+      OwnedTriangle one{s, {}};
       for (std::size_t n = 0; n < 3; ++n) {
         const Vec3& p = surfaces[s]->vertices[static_cast<std::size_t>(triangle[n])];
-        one.corners[n] = numbers.try_emplace({p.x(), p.y(), p.z()}, numbers.size()).first->second;
-        one.points[n] = to_point(p);
+        one.triangle.corners[n] =
+            numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::int32_t>(numbers.size())).first->second;
+        one.triangle.points[n] = p;
       }
-      if (!CGAL::collinear(one.points[0], one.points[1], one.points[2])) owned.push_back(one);
+      if (has_area(one.triangle)) owned.push_back(one);
     }
   return owned;
 }
 
-/// Whether two triangles meet in more than the corners that they share.
-bool cross(OwnedTriangle a, OwnedTriangle b) {
-  std::size_t shared = 0;  // the common corners are moved to the front of both
-  for (std::size_t n = 0; n < 3; ++n) {
-    const auto same = std::find(b.corners.begin() + static_cast<std::ptrdiff_t>(shared), b.corners.end(), a.corners[n]);
-    if (same == b.corners.end()) continue;
-    const auto m = static_cast<std::size_t>(same - b.corners.begin());
-    std::swap(b.corners[m], b.corners[shared]), std::swap(b.points[m], b.points[shared]);
-    std::swap(a.corners[n], a.corners[shared]), std::swap(a.points[n], a.points[shared]);
-    ++shared;
-  }
-  const SurfaceKernel::Triangle_3 first(a.points[0], a.points[1], a.points[2]),
-      second(b.points[0], b.points[1], b.points[2]);
-  if (shared == 0) return CGAL::do_intersect(first, second);
-  if (shared == 1)
-    return CGAL::do_intersect(SurfaceKernel::Segment_3(a.points[1], a.points[2]), second) ||
-           CGAL::do_intersect(SurfaceKernel::Segment_3(b.points[1], b.points[2]), first);
-  return shared == 2 && CGAL::coplanar(a.points[0], a.points[1], a.points[2], b.points[2]) &&
-         CGAL::coplanar_orientation(a.points[0], a.points[1], a.points[2], b.points[2]) == CGAL::POSITIVE;
+CGAL::Bbox_3 box_of(const NumberedTriangle& triangle) {
+  return to_point(triangle.points[0]).bbox() + to_point(triangle.points[1]).bbox() +
+         to_point(triangle.points[2]).bbox();
 }
 
 }  // namespace
@@ -101,12 +86,11 @@ std::vector<SurfaceCrossing> surface_crossings(const std::vector<const TriangleS
   const std::vector<OwnedTriangle> owned = owned_triangles(surfaces);
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
   std::vector<Box> boxes;
-  for (std::size_t n = 0; n < owned.size(); ++n)
-    boxes.emplace_back(CGAL::bbox_3(owned[n].points.begin(), owned[n].points.end()), n);
+  for (std::size_t n = 0; n < owned.size(); ++n) boxes.emplace_back(box_of(owned[n].triangle), n);
   std::map<std::array<std::size_t, 2>, std::size_t> found;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& p, const Box& q) {
     const OwnedTriangle &a = owned[p.info()], &b = owned[q.info()];
-    if (a.surface != b.surface && cross(a, b))
+    if (a.surface != b.surface && triangles_cross(a.triangle, b.triangle))
       ++found[{std::min(a.surface, b.surface), std::max(a.surface, b.surface)}];
   });
   std::vector<SurfaceCrossing> crossings;

@@ -279,25 +279,6 @@ TEST(ComplexMeshEdits, CompactDropsWhatNothingUses) {
   EXPECT_NEAR(compact.border(2).volume_m3(), two_tents().border(2).volume_m3(), 1e-15);
 }
 
-TEST(LocalSmoothing, DrawsASpikeInAndMovesNothingFarAway) {
-  LabelComplex complex = halved_ball();
-  const ComplexMesh mesh(complex);
-  ComplexMesh::Index spike = 0;
-  while (mesh.kind(spike) != Kind::patch) ++spike;
-  const auto v = static_cast<std::size_t>(spike);
-  complex.vertices[v] += Vec3(0, 0, 0.05);
-  const LabelComplex before = complex;
-  smooth_locally(complex, {mesh.fan(spike)[0]});
-  Vec3 middle = Vec3::Zero();
-  const auto round = mesh.neighbours(spike);
-  for (const auto n : round) middle += before.vertices[static_cast<std::size_t>(n)] / static_cast<double>(round.size());
-  EXPECT_LT((complex.vertices[v] - (before.vertices[v] + middle) / 2).norm(), 1e-12);
-  std::size_t moved = 0;
-  for (std::size_t n = 0; n < complex.vertices.size(); ++n) moved += complex.vertices[n] != before.vertices[n] ? 1 : 0;
-  EXPECT_LT(moved, 40U);
-  EXPECT_EQ(complex.triangles, before.triangles);
-}
-
 TEST(CorrectVolumes, EveryRegionGetsItsOwnWhileTheInterfaceStays) {
   LabelComplex complex = halved_ball();
   const LabelComplex before = complex;
