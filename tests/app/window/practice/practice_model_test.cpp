@@ -16,6 +16,7 @@
 #include "trainees/records/assessments.h"
 #include "trainees/records/programmes.h"
 #include "trainees/records/standings.h"
+#include "trainees/records/trainee_store.h"
 
 namespace trocar::practice_model_test {
 namespace {
