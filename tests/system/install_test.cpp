@@ -155,7 +155,7 @@ TEST_F(Installed, BashCompletesCommandsAndFlags) {
   for (const std::string& command : commands_of(trocar({"--help"}).out)) {
     EXPECT_NE((" " + completed("trocar ''", 1)).find(" " + command + " "), std::string::npos) << command;
   }
-  EXPECT_EQ(completed("trocar run --se", 2), "--seed\n");
+  EXPECT_EQ(completed("trocar run --se", 2), "--seed --sensor\n");
   EXPECT_EQ(completed("trocar db che", 2), "check\n");
   EXPECT_EQ(completed("trocar trainee show CODE --lim", 4), "--limit\n");
   EXPECT_EQ(completed("trocar run --frob", 2), "\n");
