@@ -197,7 +197,8 @@ TEST(Doctor, JsonHasAFindingForEachThingAndLeavesNothingBehind) {
     missing = missing || found.at("state") == "missing";
   }
   EXPECT_EQ(names, (std::vector<std::string>{"version", "processors", "assets", "picture", "database", "disk", "rtprio",
-                                             "memlock"}));
+                                             "memlock", "kernel", "real-time", "governor", "display", "locale", "clock",
+                                             "serial", "boards"}));
   EXPECT_EQ(json.at("sound"), !missing);
   EXPECT_EQ(said.code, missing ? 3 : 0);
   const std::string schema = ", database schema " + std::to_string(shipped_migrations().back().version);
