@@ -8,6 +8,7 @@
 #include "haptics/control/gravity.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/device/hostmot2/fake_hostmot2.h"
+#include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/mc4000/emulated_mc4000.h"
 #include "haptics/device/mc4000/mc4000_daq.h"
 #include "tests/haptics/loop_rig.h"

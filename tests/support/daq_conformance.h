@@ -29,6 +29,16 @@ inline DaqSample read_once(const DaqUnderTest& t) {
   return t.daq.read();
 }
 
+/// A period as the haptic task has it, with one code on all channels.
+inline DaqSample period(DataAcquisition& daq, bool armed, std::int32_t code = 0) {
+  const DaqSample sample = daq.read();
+  daq.arm(armed);
+  DacFrame frame;
+  frame.codes.fill(code);
+  daq.write(frame);
+  return sample;
+}
+
 /// Counter difference that is right across the 32-bit wrap.
 inline std::int32_t count_difference(std::int32_t now, std::int32_t before) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(now) - static_cast<std::uint32_t>(before));

@@ -28,7 +28,7 @@ std::string fixed_text(double value, int digits) {
 }
 
 void round_to_float(TriangleSurface& surface) {
-  for (Vec3& vertex : surface.vertices) vertex = vertex.cast<float>().cast<double>();
+  for (Vec3& vertex : surface.vertices) vertex = as_float(vertex);
 }
 
 /// Moves every vertex along its normal until the enclosed volume is right. @return the shift, m
@@ -73,7 +73,7 @@ std::vector<double> sizes_for(const TriangleSurface& source, int triangles, doub
 Remeshed remesh_guarded(const TriangleSurface& source, const CompileOptions& options, double volume_m3,
                         double smoothing_m, const std::vector<CapPlane>& planes) {
   LabelComplex complex{source.vertices, source.triangles, {}};
-  for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
+  for (Vec3& vertex : complex.vertices) vertex = as_float(vertex);
   for (auto& triangle : complex.triangles) std::swap(triangle[1], triangle[2]);
   complex.regions.assign(complex.triangles.size(), {0, 1});
   ComplexRemeshOptions remesh;

@@ -172,7 +172,7 @@ class GroupCompiler {
       report(options_.progress, "finding the interfaces", static_cast<double>(round) / kRounds);
       complex = label_complex(fields, size_, spacing_m_, kLeastSamples);
       map_to_ras(complex);
-      for (Vec3& vertex : complex.vertices) vertex = vertex.cast<float>().cast<double>();
+      for (Vec3& vertex : complex.vertices) vertex = as_float(vertex);
       for (std::size_t n = 0; n < members_.size(); ++n) {
         const TriangleSurface border = complex.border(static_cast<int>(n + 1));
         if (border.triangles.empty())

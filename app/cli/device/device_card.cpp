@@ -28,16 +28,6 @@ struct CardCommand {
   bool json = false;
 };
 
-struct Need {
-  Tag tag;
-  const char* name;
-  int instances;
-};
-constexpr Need kNeeds[] = {{Tag::kEncoder, "quadrature counters", kChannels},
-                           {Tag::kPwm, "analogue outputs", kChannels},
-                           {Tag::kIoPort, "I/O ports", 1},
-                           {Tag::kWatchdog, "watchdogs", 1}};
-
 struct InputName {
   std::uint32_t bits;
   const char* name;
@@ -66,7 +56,7 @@ int device_card(const CardCommand& options, std::ostream& out, std::ostream& err
   bool fit = true;
   TextTable modules({{"module"}, {"there"}, {"needed"}, {"clock, MHz"}});
   const hostmot2::Module* io = nullptr;
-  for (const Need& need : kNeeds) {
+  for (const hostmot2::Need& need : hostmot2::kNeeds) {
     const auto at = std::find_if(identity.modules.begin(), identity.modules.end(),
                                  [&need](const hostmot2::Module& m) { return m.tag == need.tag; });
     const int there = at == identity.modules.end() ? 0 : at->instances;

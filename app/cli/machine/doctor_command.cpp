@@ -26,7 +26,7 @@
 #include "app/picture/gl/headless_context.h"
 #include "app/session/setup/scene.h"
 #include "haptics/device/backends/make_backend.h"
-#include "haptics/device/hostmot2/card_inquiry.h"
+#include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "trainees/store/database.h"

@@ -1,11 +1,13 @@
 #include "haptics/device/backends/make_backend.h"
 
 #include "haptics/device/hostmot2/fake_hostmot2.h"
+#include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/mc4000/emulated_mc4000.h"
 #include "haptics/device/mc4000/mc4000_daq.h"
 #include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/device/pointer_daq.h"
 #include "haptics/device/replay_daq.h"
+#include "haptics/force_sensor/ati/ati_serial.h"
 #include "haptics/force_sensor/ati/net_ft.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/input_error.h"
@@ -182,12 +184,11 @@ Backend make_backend(const std::string& name, const BackendOptions& options) {
   return backend;
 }
 
-std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const WrenchStreamOptions& net_ft,
-                                                const WrenchStreamOptions& serial) {
+std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words) {
   const std::size_t colon = words.find(':');
   const std::string kind = words.substr(0, colon), where = colon == std::string::npos ? "" : words.substr(colon + 1);
-  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, net_ft);
-  if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, serial);
+  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, WrenchStreamOptions{});
+  if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, nano25_options());
   throw InputError("--sensor " + words + ": net-ft:ADDRESS or serial:DEVICE is expected");
 }
 

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "haptics/device/backend.h"
-#include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/simulated_daq.h"
-#include "haptics/force_sensor/ati/ati_serial.h"
+#include "haptics/force_sensor/ati/wrench_stream.h"
 
 namespace trocar {
 
@@ -45,8 +44,7 @@ BackendAbilities backend_abilities(const std::string& name);
 /// @throws InputError listing the names; std::invalid_argument when an option is out of range.
 Backend make_backend(const std::string& name, const BackendOptions& options);
 /// @param words as BackendOptions::force_sensor. @throws InputError: another word; as NetFt, AtiSerial.
-std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const WrenchStreamOptions& net_ft = {},
-                                                const WrenchStreamOptions& serial = nano25_options());
+std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words);
 /// Plays a recording back: no sensor, no world. @param samples at least one. @param recorded on what it was recorded.
 Backend replay_backend(std::vector<DaqSample> samples, const DaqCapabilities& recorded);
 

@@ -74,7 +74,6 @@ Identity CardInquiry::identify() {
     if ((first & 0xFF) == 0) break;
     Module m;
     m.tag = static_cast<Tag>(first & 0xFF);
-    m.version = static_cast<int>(first >> 8 & 0xFF);
     m.clock_hz = (first >> 16 & 0xFF) == 2 ? word[kClockHigh] : word[kClockLow];
     m.instances = static_cast<int>(first >> 24);
     m.base = static_cast<std::uint16_t>(second);

@@ -19,16 +19,16 @@ using lbp16::Space;
 
 constexpr std::uint16_t kIdromAt = 0x0400, kModulesAt = 0x0440, kPinsAt = 0x0600;
 constexpr std::uint32_t kClockLowHz = 100'000'000, kClockHighHz = 200'000'000;  // 7I80
-constexpr int kPorts = 3, kPinsInPort = 24, kTimerWords = 8;
+constexpr int kPinPorts = 3, kPinsInPort = 24, kTimerWords = 8;
 constexpr std::size_t kWords = 0x10000 / 4;
 constexpr int kCardPriority = 90;       // above the loop's
 constexpr double kServeEvery_s = 0.05;  // looks whether it ends
 
-Module module_of(Tag tag, int instances, std::uint16_t base) { return {tag, 0, instances, base, 0x100, 4, 0}; }
+Module module_of(Tag tag, int instances, std::uint16_t base) { return {tag, instances, base, 0x100, 4, 0}; }
 
 const Module kWatchdogModule = module_of(Tag::kWatchdog, 1, 0x0C00),
-             kIoModule = module_of(Tag::kIoPort, kPorts, 0x1000), kEncoderModule = module_of(Tag::kEncoder, 8, 0x3000),
-             kPwmModule = module_of(Tag::kPwm, 8, 0x4000);
+             kIoModule = module_of(Tag::kIoPort, kPinPorts, 0x1000),
+             kEncoderModule = module_of(Tag::kEncoder, 8, 0x3000), kPwmModule = module_of(Tag::kPwm, 8, 0x4000);
 
 std::uint32_t four(const char* text) {
   std::uint32_t out = 0;
@@ -102,8 +102,8 @@ void FakeHostmot2::power_up() {
                                             four("HD  "),
                                             0,
                                             0,
-                                            kPorts,
-                                            kPorts * kPinsInPort,
+                                            kPinPorts,
+                                            kPinPorts * kPinsInPort,
                                             kPinsInPort,
                                             kClockLowHz,
                                             kClockHighHz,
@@ -122,7 +122,7 @@ void FakeHostmot2::power_up() {
     put(at, static_cast<std::uint32_t>(m->tag) | clock << 16 | static_cast<std::uint32_t>(instances) << 24);
     put(static_cast<std::uint16_t>(at + 4), m->base);
   }
-  for (int pin = 0; pin < kPorts * kPinsInPort; ++pin)
+  for (int pin = 0; pin < kPinPorts * kPinsInPort; ++pin)
     put(static_cast<std::uint16_t>(kPinsAt + 4 * pin), pin_descriptor(pin));
   put(kWatchdogModule.at(WatchdogRegister::kTimer), kWatchdogOff);
   zero_ = latched_.counts;
@@ -283,7 +283,7 @@ void FakeHostmot2::watch() {
   if (timer & kWatchdogOff) return;
   if (device_.time_s() - kicked_s_ <= (timer + 1.0) / kClockLowHz) return;
   memory_[kWatchdogModule.at(WatchdogRegister::kStatus) / 4] |= kBitten;
-  for (int port = 0; port < kPorts; ++port) {
+  for (int port = 0; port < kPinPorts; ++port) {
     memory_[kIoModule.at(IoPortRegister::kDirection, port) / 4] = 0;
     memory_[kIoModule.at(IoPortRegister::kOpenDrain, port) / 4] = 0;
   }

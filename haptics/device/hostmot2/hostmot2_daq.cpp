@@ -22,10 +22,10 @@ std::uint32_t divider_of(double clock_hz, double wanted_hz) {
 
 Hostmot2Daq::Hostmot2Daq(const Hostmot2Options& options)
     : options_(options), card_(options.card, options.setup_wait_s), identity_(card_.identify()) {
-  watchdog_ = module(Tag::kWatchdog, 1, "watchdog");
-  io_ = module(Tag::kIoPort, identity_.ports, "I/O port");
-  encoder_ = module(Tag::kEncoder, kChannels, "quadrature counter");
-  pwm_ = module(Tag::kPwm, kChannels, "analogue output");
+  watchdog_ = module(kWatchdogs);
+  io_ = module({kPorts.tag, kPorts.name, std::max(kPorts.instances, identity_.ports)});
+  encoder_ = module(kEncoders);
+  pwm_ = module(kOutputs);
   for (const Wiring::Input& input : options_.wiring.inputs)
     if (input.pin < 0 || static_cast<std::size_t>(input.pin) >= identity_.pins.size())
       throw EnvironmentError(card_.name() + " has " + std::to_string(identity_.pins.size()) +
@@ -41,16 +41,16 @@ bool Hostmot2Daq::send(const lbp16::Datagram& datagram) noexcept {
   return sent;
 }
 
-const Module& Hostmot2Daq::module(Tag tag, int instances, const char* words) const {
+const Module& Hostmot2Daq::module(const Need& need) const {
   for (const Module& m : identity_.modules) {
-    if (m.tag != tag) continue;
-    if (m.instances < instances) break;
+    if (m.tag != need.tag) continue;
+    if (m.instances < need.instances) break;
     if (m.instance_stride == 4 && m.clock_hz > 0) return m;
-    throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware lays out each " + words +
+    throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware lays out its " + need.name +
                            " in a way that is not known (stride " + std::to_string(m.instance_stride) + ")");
   }
-  throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware has not " + std::to_string(instances) +
-                         " of " + words + "; load one that has");
+  throw EnvironmentError(card_.name() + ", " + identity_.board + ": its firmware has not " +
+                         std::to_string(need.instances) + " of " + need.name + "; load one that has");
 }
 
 /// Directions and sources of the pins: outputs of the analogue channels in use are theirs, all else stays an input.

@@ -10,7 +10,8 @@
 // faults. arm(false) goes out at once. A watchdog that has bitten has turned every pin into an input: it stays so until
 // disarmed, when the pins are set up again; docs/real_hardware.md says how the inhibits must be wired for that to be
 // safe. A quadrature error marks its channel as not valid in that read and is cleared. Thread: the haptic task's. No
-// call allocates, locks or throws; read() waits, at most lost-frame time.
+// call allocates, locks or throws; read() waits wait_share of a period, and as long again for each answer that it
+// drops, kMostStale at most.
 #pragma once
 
 #include <array>
@@ -70,7 +71,7 @@ class Hostmot2Daq final : public DataAcquisition {
   void add_pins(lbp16::Datagram& to) const;
   bool exchange() noexcept;
   DaqSample sample_of_answer() noexcept;
-  const hostmot2::Module& module(hostmot2::Tag tag, int instances, const char* words) const;
+  const hostmot2::Module& module(const hostmot2::Need& need) const;
 
   Hostmot2Options options_;
   hostmot2::CardInquiry card_;

@@ -64,7 +64,7 @@ constexpr std::int32_t code_of(std::uint32_t pdm) {
 /// Modules of the firmware, one descriptor each.
 struct Module {
   Tag tag = Tag::kNone;
-  int version = 0, instances = 0;
+  int instances = 0;
   std::uint16_t base = 0, register_stride = 0, instance_stride = 0;
   double clock_hz = 0;
 
@@ -73,6 +73,17 @@ struct Module {
     return static_cast<std::uint16_t>(base + static_cast<int>(r) * register_stride + instance * instance_stride);
   }
 };
+
+/// What the device needs of a card.
+struct Need {
+  Tag tag;
+  const char* name;
+  int instances;
+};
+inline constexpr Need kEncoders{Tag::kEncoder, "quadrature counters", kChannels},
+    kOutputs{Tag::kPwm, "analogue outputs", kChannels}, kPorts{Tag::kIoPort, "I/O ports", 1},
+    kWatchdogs{Tag::kWatchdog, "watchdogs", 1};
+inline constexpr Need kNeeds[] = {kEncoders, kOutputs, kPorts, kWatchdogs};
 
 /// What a pin does besides being an input: third part of its descriptor and whose it is.
 struct Pin {
@@ -93,7 +104,7 @@ struct Wiring {
   struct Input {
     std::uint32_t bits = 0;  ///< of DigitalInput
     int pin = 0;
-    bool active_low = true;  ///< a broken wire then reads as what is safe: see hostmot2_wiring()
+    bool active_low = true;  ///< a broken wire then reads as what is safe: see standard_wiring()
   };
   std::vector<Input> inputs = {};
 };

@@ -16,7 +16,6 @@ namespace trocar::lbp16 {
 
 inline constexpr std::uint16_t kPort = 27181;
 inline constexpr std::size_t kMostBytes = 1400;  ///< of a datagram [chosen: below an Ethernet frame's 1472]
-inline constexpr int kMostData = 127;            ///< of a command
 
 enum class Space : std::uint8_t {
   kHostmot2 = 0,  ///< registers of the firmware, 32 bit

@@ -44,23 +44,29 @@ void NetFt::listen() {
       silent_s += kListen_s;
       continue;
     }
-    const std::uint64_t before = link().records;
-    take_in(datagram);
-    if (link().records > before) silent_s = 0;
+    if (take_in(datagram)) silent_s = 0;
   }
 }
 
-void NetFt::take_in(const lbp16::Datagram& datagram) {
-  if (datagram.size() != kRecordBytes) return count(&WrenchLink::malformed);
+/// @return whether it was a record that is news.
+bool NetFt::take_in(const lbp16::Datagram& datagram) {
+  if (datagram.size() != kRecordBytes) {
+    count(&WrenchLink::malformed);
+    return false;
+  }
   const std::uint32_t sequence = big_endian(datagram, 0), ahead = sequence - sequence_;
   const bool older = ahead == 0 || ahead >= kOlder;
-  if (!first_ && older && sequence_ - sequence < kRestarted) return count(&WrenchLink::out_of_order);
+  if (!first_ && older && sequence_ - sequence < kRestarted) {
+    count(&WrenchLink::out_of_order);
+    return false;
+  }
   if (!first_ && !older && ahead > 1 && ahead < kRestarted) count(&WrenchLink::lost, ahead - 1);
   first_ = false;
   sequence_ = sequence;
   std::array<std::int64_t, 6> counts{};
   for (std::size_t i = 0; i < 6; ++i) counts[i] = static_cast<std::int32_t>(big_endian(datagram, 12 + 4 * i));
   take(counts, big_endian(datagram, 8) == 0);
+  return true;
 }
 
 }  // namespace trocar

@@ -22,7 +22,7 @@ class NetFt final : public WrenchStream {
  private:
   void listen() override;
   void ask(std::uint16_t command);
-  void take_in(const lbp16::Datagram& datagram);
+  bool take_in(const lbp16::Datagram& datagram);
 
   UdpLink link_;
   bool first_ = true;

@@ -48,17 +48,13 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
   WrenchRecord record;
   record.number = ++taken_;
   record.arrived_ns = now_ns();
-  Vec3 force, moment;
-  for (int i = 0; i < 3; ++i) {
-    const auto c = static_cast<std::size_t>(i);
-    force[i] = static_cast<double>(counts[c]) / options_.counts_per_n;
-    moment[i] = static_cast<double>(counts[c + 3]) / options_.counts_per_nm;
-  }
+  Vec3 force;
+  for (int i = 0; i < 3; ++i)
+    force[i] = static_cast<double>(counts[static_cast<std::size_t>(i)]) / options_.counts_per_n;
   record.sound = sound && force.cwiseAbs().maxCoeff() <= options_.most_n;
   force = options_.R_out_sensor * force;
   if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n;
   record.force_n = force - zero_ - options_.fixture_n;
-  record.moment_nm = options_.R_out_sensor * moment;
   count(&WrenchLink::records);
   if (!record.sound) count(&WrenchLink::unsound);
   newest_.write(record);

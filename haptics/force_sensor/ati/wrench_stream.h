@@ -17,18 +17,18 @@
 namespace trocar {
 
 struct WrenchStreamOptions {
-  double rate_hz = 40;    ///< at which the task takes samples
-  double lag_s = 0.15;    ///< of the sensor with its filter, for comparison with delivered forces [T: measured]
-  double silent_s = 0.2;  ///< without a record: not valid, and asked again [chosen]
-  double counts_per_n = 1e6, counts_per_nm = 1e6;  ///< as the box or calibration sheet says [M: Net F/T's usual]
-  Mat3 R_out_sensor = Mat3::Identity();            ///< from the sensor's axes to those of the force that is given out
-  Vec3 fixture_n = Vec3::Zero();  ///< weight that hangs on the sensor, in the axes given out; taken away
-  double most_n = 125;            ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
+  double rate_hz = 40;        ///< at which the task takes samples
+  double lag_s = 0.15;        ///< of the sensor with its filter, for comparison with delivered forces [T: measured]
+  double silent_s = 0.2;      ///< without a record: not valid, and asked again [chosen]
+  double counts_per_n = 1e6;  ///< as the box or calibration sheet says [M: Net F/T's usual]
+  Mat3 R_out_sensor = Mat3::Identity();  ///< from the sensor's axes to those of the force that is given out
+  Vec3 fixture_n = Vec3::Zero();         ///< weight that hangs on the sensor, in the axes given out; taken away
+  double most_n = 125;                   ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
 };
 
 struct WrenchRecord {
   std::uint64_t number = 0;  ///< of records taken in, from 1
-  Vec3 force_n = Vec3::Zero(), moment_nm = Vec3::Zero();
+  Vec3 force_n = Vec3::Zero();
   std::int64_t arrived_ns = 0;  ///< CLOCK_MONOTONIC
   bool sound = false;
 };
@@ -56,7 +56,7 @@ class WrenchStream : public ForceSensor {
   void stop();
   bool ends() const { return ends_; }
   virtual void listen() = 0;
-  /// Counts of one record. @param sound as the peer says.
+  /// Counts of one record, three forces and three moments, which nobody asks for yet. @param sound as the peer says.
   void take(const std::array<std::int64_t, 6>& counts, bool sound);
   void count(std::uint64_t WrenchLink::*what, std::uint64_t by = 1);
   const WrenchStreamOptions& options() const { return options_; }

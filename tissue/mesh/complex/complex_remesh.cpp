@@ -254,12 +254,10 @@ class ComplexRemesher {
       if (!may_move(kept, gone, place) || !may_move(gone, kept, place)) continue;
       if (!allowed && !mesh_.may_collapse(kept, gone)) return false;
       allowed = true;
-      if (collapse_clear(kept, gone, rounded(place))) return true;
+      if (collapse_clear(kept, gone, as_float(place))) return true;
     }
     return false;
   }
-
-  static Vec3 rounded(const Vec3& place) { return place.cast<float>().cast<double>(); }
 
   NumberedTriangle numbered(Index t) const {
     NumberedTriangle result{mesh_.triangle(t), {}};
@@ -366,7 +364,7 @@ class ComplexRemesher {
   /// @return whether it was done: rounding the middle makes nothing cross
   bool split_clear(Index a, Index b) {
     const auto middle = static_cast<Index>(mesh_.vertices());
-    const Vec3 place = rounded((mesh_.place(a) + mesh_.place(b)) / 2);
+    const Vec3 place = as_float((mesh_.place(a) + mesh_.place(b)) / 2);
     const std::vector<Index> old = mesh_.around(a, b);
     std::vector<NumberedTriangle> fresh;
     for (const Index t : old)
@@ -473,7 +471,7 @@ class ComplexRemesher {
       }
     }
     for (const auto& [v, place] : moves)
-      if (!turns_over(v, place)) move_clear(v, rounded(place));
+      if (!turns_over(v, place)) move_clear(v, as_float(place));
   }
 
   /// Whether the curve through a vertex closes within five edges: relaxed, such a loop would shrink to a point.

@@ -125,7 +125,7 @@ std::size_t move_without_crossing(LabelComplex& complex, const std::vector<Vec3>
   CrossingGuard guard(complex);
   const ComplexMesh mesh(complex);
   const auto move = [&](std::size_t v, const Vec3& wish) {
-    const Vec3 place = wish.cast<float>().cast<double>();
+    const Vec3 place = as_float(wish);
     const auto& fan = mesh.fan(static_cast<std::int32_t>(v));
     std::vector<NumberedTriangle> fresh;
     double before = 0, after = 0;

@@ -26,6 +26,9 @@ struct LabelComplex {
   TriangleSurface border(int region, std::vector<std::int32_t>* source = nullptr) const;
 };
 
+/// A place as a file of float32 keeps it: what is proved of it is proved of the file.
+inline Vec3 as_float(const Vec3& place) { return place.cast<float>().cast<double>(); }
+
 /// One region's field on its own box of a common grid.
 struct RegionField {
   std::array<int, 3> first{};  ///< index in the common grid of the field's first sample

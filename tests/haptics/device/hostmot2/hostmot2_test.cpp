@@ -10,11 +10,14 @@
 #include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/input_error.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/daq_conformance.h"
 
 namespace trocar::hostmot2_test {
 namespace {
 
 using namespace hostmot2;
+
+using test::period;
 
 class Hostmot2 : public testing::Test {
  protected:
@@ -23,15 +26,6 @@ class Hostmot2 : public testing::Test {
     out.card = card_.address();
     out.wait_share = wait_s * out.rate_hz;
     return out;
-  }
-  /// A period as the haptic task has it.
-  DaqSample period(Hostmot2Daq& daq, bool armed, std::int32_t code = 0) {
-    const DaqSample sample = daq.read();
-    daq.arm(armed);
-    DacFrame frame;
-    frame.codes.fill(code);
-    daq.write(frame);
-    return sample;
   }
   SimulatedDaq device_{FakeHostmot2::device_config({})};
   FakeHostmot2 card_{device_, {}, standard_wiring()};
@@ -252,6 +246,23 @@ TEST_F(Hostmot2, ACardThatLostItsPowerGivesNoTorqueAndIsFoundOut) {
   for (int k = 0; k < 5; ++k) period(daq, true, 500);
   EXPECT_TRUE(card_.amplifiers_enabled());
   EXPECT_EQ(card_.codes_in_force()[0], 500) << "outputs and counters are set up too";
+}
+
+/// What every back-end owes its controller, asked of the device behind the card.
+TEST_F(Hostmot2, KeepsWhatEveryBackEndOwes) {
+  Hostmot2Daq daq(options());
+  const auto loads = [&] {
+    card_.settle(daq.link().sent);
+    const auto held = card_.hold();
+    return device_.plant().motor_loads();
+  };
+  const test::DaqUnderTest asked{daq, {}, {}, loads};
+  test::expect_sane_capabilities(asked);
+  test::expect_well_formed_samples(asked, 500, 30);
+  test::expect_disarm_removes_torque(asked, 500);
+  for (int k = 0; k < 10; ++k) period(daq, true);
+  test::expect_atomic_write(asked, 500);
+  test::expect_no_allocation(asked, 200);
 }
 
 TEST_F(Hostmot2, ATickAllocatesNothing) {

@@ -10,22 +10,17 @@
 #include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/input_error.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/daq_conformance.h"
 
 namespace trocar::mc4000_test {
 namespace {
+
+using test::period;
 
 class Mc4000 : public testing::Test {
  protected:
   std::unique_ptr<Mc4000Daq> driver(const Mc4000Options& options = {}) {
     return std::make_unique<Mc4000Daq>(pair_.board(0), pair_.board(1), options);
-  }
-  static DaqSample period(Mc4000Daq& daq, bool armed, std::int32_t code = 0) {
-    const DaqSample sample = daq.read();
-    daq.arm(armed);
-    DacFrame frame;
-    frame.codes.fill(code);
-    daq.write(frame);
-    return sample;
   }
   std::int32_t code_in_force(int channel) const {
     return device_.codes_in_force().codes[static_cast<std::size_t>(channel)];
@@ -157,6 +152,18 @@ TEST_F(Mc4000, BoardsThatCannotBeSetUpAreRefusedWithTheReason) {
   refusal({.gone = {true, false}}, "board 0: its timer does not keep what is written");
   refusal({.gone = {false, true}}, "board 1: its timer does not keep what is written");
   refusal({.sync_cable_out = true}, "board 1: no SYNC comes from board 0; is their cable plugged?");
+}
+
+/// What every back-end owes its controller, asked of the device behind the boards.
+TEST_F(Mc4000, KeepsWhatEveryBackEndOwes) {
+  const auto daq = driver();
+  const test::DaqUnderTest asked{*daq, {}, {}, [this] { return device_.plant().motor_loads(); }};
+  test::expect_sane_capabilities(asked);
+  test::expect_well_formed_samples(asked, 500, 30);
+  test::expect_disarm_removes_torque(asked, 3000);
+  for (int k = 0; k < 10; ++k) period(*daq, true);
+  test::expect_atomic_write(asked, 3000);
+  test::expect_no_allocation(asked, 200);
 }
 
 TEST_F(Mc4000, ATickAllocatesNothing) {
