@@ -55,8 +55,8 @@ struct Attempt {
   int fit_sweeps;
   bool even;
 };
-constexpr std::array<Attempt, 6> kAttempts{
-    {{1, 4, false}, {1, 1, false}, {1, 0, false}, {1, 0, true}, {1.4, 0, true}, {2, 0, true}}};
+constexpr std::array<Attempt, 7> kAttempts{
+    {{1, 6, false}, {1, 3, false}, {1, 1, false}, {1, 0, false}, {1, 0, true}, {1.4, 0, true}, {2, 0, true}}};
 
 std::vector<double> sizes_for(const TriangleSurface& source, int triangles, double smoothing_m, bool even) {
   EdgeSizeOptions sizes;
@@ -70,15 +70,19 @@ std::vector<double> sizes_for(const TriangleSurface& source, int triangles, doub
 Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options, double volume_m3, double smoothing_m,
                    const std::vector<CapPlane>& planes, std::vector<std::string>& repairs) {
   Remeshed best;
+  TriangleSurface unfitted;
+  const Attempt* last = nullptr;
   for (const Attempt& attempt : kAttempts) {
     Remeshed result;
     const int triangles = static_cast<int>(options.triangles * attempt.triangles);
     RemeshOptions remesh;
     remesh.triangles = triangles, remesh.progress = options.progress;
-    result.surface = remeshed(source, sizes_for(source, triangles, smoothing_m, attempt.even), remesh);
-    const CapKeeper caps(planes, result.surface.vertices);
+    if (last == nullptr || last->even != attempt.even || last->triangles != attempt.triangles)
+      unfitted = remeshed(source, sizes_for(source, triangles, smoothing_m, attempt.even), remesh);
+    last = &attempt;
+    const CapKeeper caps(planes, unfitted.vertices);
     report(options.progress, "fitting", 0);
-    result.surface = fitted(result.surface, source, attempt.fit_sweeps);
+    result.surface = closely_fitted(unfitted, source, caps, attempt.fit_sweeps);
     const double shift = correct_volume(result.surface, volume_m3, caps);
     round_to_float(result.surface);
     result.self_intersections = count_self_intersections(result.surface);
