@@ -1,7 +1,9 @@
 #include "tissue/organ/organ_compiler.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "tissue/imaging/labels/smooth_field.h"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double kMlPerM3 = 1e6;
 constexpr double kVolumeTolerance = 1e-4;  ///< relative; the budget is 1e-2
+constexpr std::size_t kFitVertices = 4;    ///< that a surface to fit to has at least, for each triangle wanted
 std::string fixed_text(double value, int digits) {
   std::ostringstream out;
   out.setf(std::ios::fixed);
@@ -66,9 +69,33 @@ std::vector<double> sizes_for(const TriangleSurface& source, int triangles, doub
   return edge_sizes(source, sizes);
 }
 
+/// The same surface, its triangles cut in four until it has as many vertices: a coarse one has too few to fit to.
+TriangleSurface cut_in_four(TriangleSurface surface, std::size_t vertices) {
+  while (surface.vertices.size() < vertices) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+      const auto [entry, fresh] =
+          middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(surface.vertices.size()));
+      if (fresh)
+        surface.vertices.push_back(
+            (surface.vertices[static_cast<std::size_t>(a)] + surface.vertices[static_cast<std::size_t>(b)]) / 2);
+      return entry->second;
+    };
+    std::vector<std::array<std::int32_t, 3>> finer;
+    for (const auto& [a, b, c] : surface.triangles) {
+      const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    surface.triangles = std::move(finer);
+  }
+  return surface;
+}
+
 /// Remeshes to about `triangles`, fits, corrects the volume, and tries again when the result cuts itself.
-Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options, double volume_m3, double smoothing_m,
-                   const std::vector<CapPlane>& planes, std::vector<std::string>& repairs) {
+/// @param target what is fitted to: the source with enough vertices
+Remeshed remesh_to(const TriangleSurface& source, const TriangleSurface& target, const CompileOptions& options,
+                   double volume_m3, double smoothing_m, const std::vector<CapPlane>& planes,
+                   std::vector<std::string>& repairs) {
   Remeshed best;
   TriangleSurface unfitted;
   const Attempt* last = nullptr;
@@ -82,7 +109,7 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
     last = &attempt;
     const CapKeeper caps(planes, unfitted.vertices);
     report(options.progress, "fitting", 0);
-    result.surface = closely_fitted(unfitted, source, caps, attempt.fit_sweeps);
+    result.surface = closely_fitted(unfitted, target, caps, attempt.fit_sweeps);
     const double shift = correct_volume(result.surface, volume_m3, caps);
     round_to_float(result.surface);
     result.self_intersections = count_self_intersections(result.surface);
@@ -123,8 +150,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
         {"detached", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
   facts.repairs.push_back("smoothed, iso level " + fixed_text(source.level, 4) + sampling_text(source.sampling));
   facts.voxel_m = std::cbrt(voxel_ml / kMlPerM3);
-  Remeshed mesh =
-      remesh_to(source.dense, options, source.kept_m3, 2 * source.spacing_m.maxCoeff(), source.caps, facts.repairs);
+  Remeshed mesh = remesh_to(source.dense, source.dense, options, source.kept_m3, 2 * source.spacing_m.maxCoeff(),
+                            source.caps, facts.repairs);
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, source.kept_m3, source.sharp, source.centroid_m, facts);
@@ -134,7 +161,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
 CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptions& options) {
   MeshFacts facts;
   const double smoothing_m = std::sqrt(surface_area_m2(surface) / options.triangles);
-  Remeshed mesh = remesh_to(surface, options, surface.volume_m3(), smoothing_m, {}, facts.repairs);
+  const TriangleSurface target = cut_in_four(surface, kFitVertices * static_cast<std::size_t>(options.triangles));
+  Remeshed mesh = remesh_to(surface, target, options, surface.volume_m3(), smoothing_m, {}, facts.repairs);
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, surface.volume_m3(), surface, volume_centroid_m(surface), facts);
