@@ -8,6 +8,7 @@
 
 #include "haptics/contact/segment_triangle.h"
 #include "tissue/mesh/surface/nearest_surface.h"
+#include "tissue/mesh/surface/topology.h"
 
 namespace trocar {
 namespace {
@@ -17,6 +18,7 @@ using Index = std::int32_t;
 constexpr std::size_t kSamplesPerTriangle = 8, kCloseSamplesPerTriangle = 16;
 constexpr double kOvershoot = 1.5;    ///< the shares' sum overrates the stiffness: a full step is too short (1..2)
 constexpr double kTether = 0.003;     ///< holds a vertex within the tangent plane, against what the samples do
+constexpr double kLongestEdge = 2.5;  ///< of an even mesh's edge, that a step or flip makes
 constexpr double kLongestStep = 0.3;  ///< of the vertex's shortest edge
 constexpr double kLeastStep = 0.2;    ///< of the step wanted: not halved below
 constexpr double kLeastGain = 0.02;   ///< of the squared distances, that a flip is worth
@@ -41,6 +43,13 @@ double sharpest(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({-u.dot(w), -u.dot(v), -v.dot(w)});
 }
 
+/// Of a mesh of as many equilateral triangles.
+double even_edge_m(const TriangleSurface& surface) {
+  constexpr double kEquilateral = 0.4330127018922193;  // area over edge^2
+  return std::sqrt(surface_area_m2(surface) / kEquilateral /
+                   static_cast<double>(std::max<std::size_t>(surface.triangles.size(), 1)));
+}
+
 /// Numbers 0..n by the group that each belongs to; those of a negative group in none.
 struct Groups {
   std::vector<std::size_t> begin;  ///< one a group, and the end
@@ -61,7 +70,8 @@ struct Groups {
 class Fit {
  public:
   /// @param per_triangle samples: of a denser target every second, third, ... vertex
-  Fit(TriangleSurface& surface, const TriangleSurface& target, std::size_t per_triangle) : surface_(surface) {
+  Fit(TriangleSurface& surface, const TriangleSurface& target, std::size_t per_triangle)
+      : surface_(surface), longest_edge_m_(kLongestEdge * even_edge_m(surface)) {
     const std::vector<Vec3> normals = target.vertex_normals();
     const std::size_t stride =
         std::max<std::size_t>(1, target.vertices.size() / (per_triangle * surface.triangles.size() + 1));
@@ -130,7 +140,7 @@ class Fit {
       if (flipped[d.triangle[0]] || flipped[d.triangle[1]] || c == e) continue;
       if (std::min(valence[at(a)], valence[at(b)]) <= kLeastValence) continue;
       if (std::max(valence[at(c)], valence[at(e)]) >= kLargestValence) continue;
-      if (!keeps_shape(d) || joined(c, e, corners)) continue;
+      if ((place(c) - place(e)).norm() > longest_edge_m_ || !keeps_shape(d) || joined(c, e, corners)) continue;
       const std::array<Index, 2> edge{std::min(c, e), std::max(c, e)};
       if (std::find(fresh.begin(), fresh.end(), edge) != fresh.end() || !comes_closer(d, samples)) continue;
       surface_.triangles[d.triangle[0]] = {c, a, e};
@@ -199,6 +209,7 @@ class Fit {
       const Vec3 &p = place(v), &q = place(next), &r = place(last);
       const Vec3 before = (q - p).cross(r - p), after = (q - moved).cross(r - moved);
       if (after.dot(before) < kLeastTurn * after.norm() * before.norm()) return false;
+      if ((q - moved).norm() > std::max(longest_edge_m_, (q - p).norm())) return false;
       if (sharpest(moved, q, r) > std::max(sharpest(p, q, r), least_cosine_)) return false;
     }
     return true;
@@ -260,6 +271,7 @@ class Fit {
   TriangleSurface& surface_;
   std::vector<Sample> samples_;
   std::vector<Index> triangle_;  ///< that each sample projects onto; -1: none
+  double longest_edge_m_;
   double least_cosine_ = std::cos(kLeastFittedAngleDeg * std::numbers::pi / 180);
 };
 
