@@ -94,7 +94,8 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
   name_organ(naming, manifest);
   decisions.insert(decisions.begin(), naming.decisions.begin(), naming.decisions.end());
   const LabelVolume& layer = source.map.layers[label.segment.layer];
-  const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress};
+  const MeshFit fit = options.synthetic ? MeshFit::kAlongNormals : MeshFit::kOntoBends;
+  const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress, fit};
   CompiledOrgan organ = compile_label(layer, label.segment.number, how);
   manifest.mesh = std::move(organ.facts);
   manifest.decisions = untold(decisions, manifest.mesh.repairs);
@@ -133,7 +134,7 @@ CompiledMember surface_member(const OrganImportOptions& options, const fs::path&
   manifest.decisions = source.decisions;
   append(manifest.decisions, naming.decisions);
   append(manifest.decisions, source.warnings);
-  CompiledOrgan organ = compile_surface(source.surface, {options.triangles, {}, options.progress});
+  CompiledOrgan organ = compile_surface(source.surface, {.triangles = options.triangles, .progress = options.progress});
   organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
   for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
   manifest.mesh = std::move(organ.facts);

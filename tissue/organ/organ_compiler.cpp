@@ -1,7 +1,9 @@
 #include "tissue/organ/organ_compiler.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "tissue/imaging/labels/smooth_field.h"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr double kMlPerM3 = 1e6;
 constexpr double kVolumeTolerance = 1e-4;  ///< relative; the budget is 1e-2
+constexpr std::size_t kFitVertices = 4;    ///< that a surface to fit to has at least, for each triangle wanted
 std::string fixed_text(double value, int digits) {
   std::ostringstream out;
   out.setf(std::ios::fixed);
@@ -52,14 +55,21 @@ struct Remeshed {
   std::size_t self_intersections = 0;
 };
 
-/// What one attempt of remeshing does; later attempts are gentler, then finer and more even.
+/// What one attempt of remeshing does.
 struct Attempt {
   double triangles;
   int fit_sweeps;
   bool even;
 };
-constexpr std::array<Attempt, 6> kAttempts{
-    {{1, 4, false}, {1, 1, false}, {1, 0, false}, {1, 0, true}, {1.4, 0, true}, {2, 0, true}}};
+
+/// Later attempts are gentler, then finer and more even.
+std::vector<Attempt> attempts_of(MeshFit fit) {
+  std::vector<Attempt> attempts;
+  for (const int sweeps : fit == MeshFit::kOntoBends ? std::vector{6, 3, 1, 0} : std::vector{4, 1, 0})
+    attempts.push_back({1, sweeps, false});
+  for (const double triangles : {1.0, 1.4, 2.0}) attempts.push_back({triangles, 0, true});
+  return attempts;
+}
 
 std::vector<double> sizes_for(const TriangleSurface& source, int triangles, double smoothing_m, bool even) {
   EdgeSizeOptions sizes;
@@ -87,19 +97,49 @@ Remeshed remesh_guarded(const TriangleSurface& source, const CompileOptions& opt
   return result;
 }
 
+/// The same surface, its triangles cut in four until it has as many vertices: a coarse one has too few to fit to.
+TriangleSurface cut_in_four(TriangleSurface surface, std::size_t vertices) {
+  while (surface.vertices.size() < vertices) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+      const auto [entry, fresh] =
+          middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(surface.vertices.size()));
+      if (fresh)
+        surface.vertices.push_back(
+            (surface.vertices[static_cast<std::size_t>(a)] + surface.vertices[static_cast<std::size_t>(b)]) / 2);
+      return entry->second;
+    };
+    std::vector<std::array<std::int32_t, 3>> finer;
+    for (const auto& [a, b, c] : surface.triangles) {
+      const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    surface.triangles = std::move(finer);
+  }
+  return surface;
+}
+
 /// Remeshes to about `triangles`, fits, corrects the volume, and tries again when the result cuts itself.
-Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options, double volume_m3, double smoothing_m,
-                   const std::vector<CapPlane>& planes, std::vector<std::string>& repairs) {
+/// @param target what is fitted to: the source with enough vertices
+Remeshed remesh_to(const TriangleSurface& source, const TriangleSurface& target, const CompileOptions& options,
+                   double volume_m3, double smoothing_m, const std::vector<CapPlane>& planes,
+                   std::vector<std::string>& repairs) {
+  const std::vector<Attempt> attempts = attempts_of(options.fit);
   Remeshed best;
-  for (const Attempt& attempt : kAttempts) {
+  TriangleSurface unfitted;
+  const Attempt* last = nullptr;
+  for (const Attempt& attempt : attempts) {
     Remeshed result;
     const int triangles = static_cast<int>(options.triangles * attempt.triangles);
     RemeshOptions remesh;
     remesh.triangles = triangles, remesh.progress = options.progress;
-    result.surface = remeshed(source, sizes_for(source, triangles, smoothing_m, attempt.even), remesh);
-    const CapKeeper caps(planes, result.surface.vertices);
+    if (last == nullptr || last->even != attempt.even || last->triangles != attempt.triangles)
+      unfitted = remeshed(source, sizes_for(source, triangles, smoothing_m, attempt.even), remesh);
+    last = &attempt;
+    const CapKeeper caps(planes, unfitted.vertices);
     report(options.progress, "fitting", 0);
-    result.surface = fitted(result.surface, source, attempt.fit_sweeps);
+    result.surface = options.fit == MeshFit::kOntoBends ? closely_fitted(unfitted, target, caps, attempt.fit_sweeps)
+                                                        : fitted(unfitted, source, attempt.fit_sweeps);
     const double shift = correct_volume(result.surface, volume_m3, caps);
     round_to_float(result.surface);
     result.self_intersections = count_self_intersections(result.surface);
@@ -112,6 +152,7 @@ Remeshed remesh_to(const TriangleSurface& source, const CompileOptions& options,
       return result;
     }
     repairs.push_back(what + ": " + std::to_string(result.self_intersections) + " self-intersections");
+    if (attempt.fit_sweeps > 0) continue;
     if (best.surface.triangles.empty()) {
       best = remesh_guarded(source, options, volume_m3, smoothing_m, planes);
       if (best.self_intersections == 0) {
@@ -148,8 +189,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
         {"detached", static_cast<std::size_t>(std::llround(lost * kMlPerM3 / voxel_ml)), lost * kMlPerM3});
   facts.repairs.push_back("smoothed, iso level " + fixed_text(source.level, 4) + sampling_text(source.sampling));
   facts.voxel_m = std::cbrt(voxel_ml / kMlPerM3);
-  Remeshed mesh =
-      remesh_to(source.dense, options, source.kept_m3, 2 * source.spacing_m.maxCoeff(), source.caps, facts.repairs);
+  Remeshed mesh = remesh_to(source.dense, source.dense, options, source.kept_m3, 2 * source.spacing_m.maxCoeff(),
+                            source.caps, facts.repairs);
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, source.kept_m3, source.sharp, source.centroid_m, facts);
@@ -159,7 +200,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
 CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptions& options) {
   MeshFacts facts;
   const double smoothing_m = std::sqrt(surface_area_m2(surface) / options.triangles);
-  Remeshed mesh = remesh_to(surface, options, surface.volume_m3(), smoothing_m, {}, facts.repairs);
+  const TriangleSurface target = cut_in_four(surface, kFitVertices * static_cast<std::size_t>(options.triangles));
+  Remeshed mesh = remesh_to(surface, target, options, surface.volume_m3(), smoothing_m, {}, facts.repairs);
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, surface.volume_m3(), surface, volume_centroid_m(surface), facts);

@@ -44,12 +44,12 @@ class GoldenPath : public ::testing::Test {
     const MeshFacts& facts = organ.facts;
     expect_sound(facts, name);
     EXPECT_NEAR(static_cast<double>(organ.surface.triangles.size()), 3000, 150) << name;
-    EXPECT_LE(facts.distance.mean_m, 0.6e-3) << name;
-    EXPECT_LE(facts.distance.p99_m, 1.5e-3) << name;
-    EXPECT_LE(facts.distance_back.mean_m, 0.6e-3) << name;
+    EXPECT_LE(facts.distance.mean_m, 0.35e-3) << name;  // of the liver; VTK's filters come to 0.35 at this count
+    EXPECT_LE(facts.distance.p99_m, 1.25e-3) << name;
+    EXPECT_LE(facts.distance_back.mean_m, 0.5e-3) << name;
     EXPECT_LE(facts.distance_back.p99_m, 2.0e-3) << name;  // 1.5 mm is aimed at; liver and right kidney are above
     EXPECT_LE(facts.centroid_offset_m, 0.5e-3) << name;
-    EXPECT_GT(facts.quality.min_angle_deg, 10) << name;
+    EXPECT_GT(facts.quality.min_angle_deg, 20) << name;
   }
 
   std::filesystem::path data_;

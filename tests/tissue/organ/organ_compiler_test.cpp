@@ -140,5 +140,16 @@ TEST(OrganCompiler, RefusesAnAbsentLabel) {
                   "label 5");
 }
 
+TEST(OrganCompiler, ASurfaceOfFewVerticesIsFollowedBetweenThemToo) {
+  const TriangleSurface ball = test::sphere(Vec3::Zero(), 0.05, 3);  // 258 vertices, bends of 10 degrees
+  CompileOptions options;
+  options.triangles = 2000;
+  const MeshFacts facts = compile_surface(ball, options).facts;
+  EXPECT_LT(facts.distance.mean_m, 4e-5);
+  EXPECT_LT(facts.distance_back.mean_m, 4e-5);
+  EXPECT_EQ(facts.self_intersections, 0U);
+  EXPECT_GT(facts.quality.min_angle_deg, 20);
+}
+
 }  // namespace
 }  // namespace trocar::organ_compiler_test

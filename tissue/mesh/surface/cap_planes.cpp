@@ -29,11 +29,15 @@ CapKeeper::CapKeeper(const std::vector<CapPlane>& planes, const std::vector<Vec3
 }
 
 void CapKeeper::apply(std::vector<Vec3>& vertices) const {
-  for (std::size_t n = 0; n < planes_.size(); ++n)
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      const double beyond = planes_[n].normal.dot(vertices[v]) - planes_[n].offset_m;
-      if (beyond > 0 || on_plane_[n][v]) vertices[v] -= beyond * planes_[n].normal;
-    }
+  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = kept(v, vertices[v]);
+}
+
+Vec3 CapKeeper::kept(std::size_t vertex, Vec3 place) const {
+  for (std::size_t n = 0; n < planes_.size(); ++n) {
+    const double beyond = planes_[n].normal.dot(place) - planes_[n].offset_m;
+    if (beyond > 0 || on_plane_[n][vertex]) place -= beyond * planes_[n].normal;
+  }
+  return place;
 }
 
 }  // namespace trocar

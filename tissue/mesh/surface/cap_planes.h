@@ -26,6 +26,8 @@ class CapKeeper {
   /// @param planes must outlive this object
   CapKeeper(const std::vector<CapPlane>& planes, const std::vector<Vec3>& vertices);
   void apply(std::vector<Vec3>& vertices) const;
+  /// Where the vertex may go that would go to `place`.
+  Vec3 kept(std::size_t vertex, Vec3 place) const;
 
  private:
   const std::vector<CapPlane>& planes_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/tissue/support/shapes.h"
@@ -120,6 +122,53 @@ TEST(SurfaceFit, BringsFacetsCloserToTheShape) {
                after = distance_from_to(fitted(coarse, dense, 4), dense).mean_m;
   EXPECT_LT(after, 0.5 * before);
   EXPECT_EQ(fitted(coarse, dense, 0).vertices.size(), coarse.vertices.size());
+}
+
+/// A cube with rounded edges, half a metre from its middle to its faces.
+TriangleSurface rounded_cube() {
+  TriangleSurface cube = test::sphere(Vec3::Zero(), 1, 6);
+  for (Vec3& vertex : cube.vertices) vertex /= 2 * std::pow(vertex.array().pow(8).sum(), 1.0 / 8);
+  return cube;
+}
+
+TEST(SurfaceFit, SlidesOntoBendsAndFlipsEdgesAlongThem) {
+  const TriangleSurface dense = rounded_cube();
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.25), {});
+  const std::vector<CapPlane> none;
+  const CapKeeper no_caps(none, coarse.vertices);
+  const TriangleSurface along = fitted(coarse, dense, 6), close = closely_fitted(coarse, dense, no_caps, 6);
+  EXPECT_LT(distance_from_to(close, dense).mean_m, 0.75 * distance_from_to(along, dense).mean_m);
+  EXPECT_LT(distance_from_to(dense, close).mean_m, 0.75 * distance_from_to(dense, along).mean_m);
+  EXPECT_NE(close.triangles, coarse.triangles);
+  EXPECT_GT(mesh_quality(close).min_angle_deg,
+            std::min(kLeastFittedAngleDeg, mesh_quality(coarse).min_angle_deg) - 1e-9);
+  const SurfaceTopology facts = analyse_topology(close);
+  EXPECT_TRUE(facts.closed() && facts.manifold());
+  EXPECT_EQ(facts.genus, 0);
+  EXPECT_EQ(close.vertices.size(), coarse.vertices.size());
+  EXPECT_EQ(close.triangles.size(), coarse.triangles.size());
+  EXPECT_EQ(count_self_intersections(close), 0U);
+  const TriangleSurface again = closely_fitted(coarse, dense, no_caps, 6);
+  EXPECT_TRUE(again.vertices == close.vertices && again.triangles == close.triangles);
+  EXPECT_EQ(closely_fitted(coarse, dense, no_caps, 0).vertices, coarse.vertices);
+}
+
+TEST(SurfaceFit, LeavesACapFlat) {
+  TriangleSurface dense = rounded_cube();
+  const std::vector<CapPlane> planes{{Vec3::UnitZ(), 0.2}};
+  for (Vec3& vertex : dense.vertices) vertex.z() = std::min(vertex.z(), 0.2);
+  const TriangleSurface coarse = remeshed(dense, std::vector<double>(dense.vertices.size(), 0.15), {});
+  const TriangleSurface close = closely_fitted(coarse, dense, {planes, coarse.vertices}, 6);
+  std::size_t on_cap = 0;
+  for (std::size_t v = 0; v < close.vertices.size(); ++v) {
+    EXPECT_LE(close.vertices[v].z(), 0.2 + 1e-12);
+    if (std::abs(coarse.vertices[v].z() - 0.2) > 1e-9) continue;
+    ++on_cap;
+    EXPECT_NEAR(close.vertices[v].z(), 0.2, 1e-12);
+  }
+  EXPECT_GT(on_cap, 20U);
+  EXPECT_LT(distance_from_to(close, dense).mean_m, 0.75 * distance_from_to(coarse, dense).mean_m);
+  EXPECT_EQ(count_self_intersections(close), 0U);
 }
 
 }  // namespace
