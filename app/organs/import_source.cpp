@@ -50,13 +50,13 @@ void require_labels(const std::string& input, const std::vector<DicomSeries>& se
 
 /// Labels of a DICOM input: a segmentation or a structure set, on the grid of the image when there is one.
 LabelMap read_dicom_labels(const DicomStudy& study, std::optional<int> number, const std::optional<ImageVolume>& image,
-                           const std::vector<std::string>& wanted, const Progress& progress) {
+                           const std::vector<std::string>& wanted, bool every, const Progress& progress) {
   const std::vector<DicomSeries> series = study.series();
   const auto holds = [&](DicomKind kind) {
     return std::any_of(series.begin(), series.end(),
                        [&](const DicomSeries& one) { return one.kind == kind && (!number || one.number == *number); });
   };
-  if (holds(DicomKind::kSegmentation)) return read_dicom_segmentation(study, progress, number);
+  if (holds(DicomKind::kSegmentation)) return read_dicom_segmentation(study, progress, number, every);
   if (holds(DicomKind::kStructureSet))
     return image ? read_rtstruct(study, *image, progress, number, wanted)
                  : read_rtstruct(study, progress, number, wanted);
@@ -115,7 +115,7 @@ void read_labels(const OrganImportOptions& options, const std::optional<OrganFil
   require_labels(source.file, study.series());
   if (!source.image && !is_volume_file(options.input)) source.image = images_beside(study, options.progress);
   source.map = read_dicom_labels(study, options.labels.empty() ? options.series : std::nullopt, source.image,
-                                 wanted_words(options), options.progress);
+                                 wanted_words(options), options.all, options.progress);
 }
 
 LabelMap segmented(const OrganImportOptions& options, const ImageVolume& image) {

@@ -8,6 +8,7 @@
 #include "app/organs/chosen_labels.h"
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/imaging/dicom/dicom_segmentation.h"
 #include "tissue/imaging/dicom/segment_layers.h"
 #include "tissue/imaging/labels/label_grid.h"
 #include "tissue/organ/surface_import.h"
@@ -77,9 +78,12 @@ std::optional<OrganFiles> of_zip(const fs::path& archive, const Progress& progre
 OrganFiles of_list(const std::vector<std::string>& inputs) {
   OrganFiles files{std::to_string(inputs.size()) + " files", {}, {}};
   for (const std::string& input : inputs) {
-    const Kind kind = kind_of_name(input);
+    Kind kind = kind_of_name(input);
+    if ((kind == Kind::kDicom || kind == Kind::kOther) && has_dicom_signature(input)) kind = Kind::kVolume;
     if (!fs::is_regular_file(input) || (kind != Kind::kVolume && kind != Kind::kSurface))
-      throw InputError(input + ": of several inputs each is a label map or a surface (DICOM: give its folder alone)");
+      throw InputError(input +
+                       ": of several inputs each is a label map, a DICOM segmentation or a surface (images: give "
+                       "their folder alone)");
     take(files, kind, input);
   }
   return files;
@@ -93,20 +97,6 @@ ImageVolume image_among(const OrganFile& file, const VolumeReading& reading, con
   } catch (const InputError&) {
     throw no_mask;
   }
-}
-
-SegmentMask mask_of_label(const LabelVolume& volume, int number) {
-  SegmentMask mask(volume.size);
-  std::size_t place = 0;
-  const std::size_t slice = volume.labels.size() / static_cast<std::size_t>(volume.size[2]);
-  for (const std::uint16_t label : volume.labels) {
-    if (label == number) {
-      mask.voxels[place] = true;
-      mask.mark_slice(static_cast<int>(place / slice));
-    }
-    ++place;
-  }
-  return mask;
 }
 
 /// "24 x 24 x 24 voxels of 3 x 3 x 3 mm from -35, 12, 100 mm RAS"
@@ -123,33 +113,32 @@ std::string described(const VoxelGrid& grid) {
 /// Lays the masks into layers one after the other.
 class MaskGatherer {
  public:
-  explicit MaskGatherer(std::string input) : input_(std::move(input)) {}
+  explicit MaskGatherer(const std::string& input) : input_(input), layers_(input) {}
 
   void add(const OrganFile& file, LabelMap&& map) {
     if (map.segments.empty()) {
       empty_.push_back(file.name);
       return;
     }
-    const LabelVolume& first = map.layers.front();
-    if (!layers_) {
-      layers_.emplace(first.size, first.index_to_ras_mm, input_);
-      grid_ = grid_of(first), grid_file_ = file.path.filename().string();
-    }
-    if (!same_grid(grid_, grid_of(first)))
-      throw InputError(file.path.string() + ": lies on another grid (" + described(grid_of(first)) + ") than " +
-                       grid_file_ + " (" + described(grid_) +
-                       "): masks of one scene lie on one grid; import it by itself, or export all on one grid");
+    const VoxelGrid grid = grid_of(map.layers.front());
+    if (grid_file_.empty()) grid_file_ = file.path.filename().string();
+    if (!layers_.hold(grid))
+      throw InputError(file.path.string() + ": lies on another grid (" + described(grid) + ") than " + grid_file_ +
+                       " (" + described(layers_.grid()) +
+                       "): masks of one scene are cut-outs of one image; import it by itself, or export all on one "
+                       "grid");
     const bool several = map.segments.size() > 1;
     for (Segment segment : map.segments) {
       if (several && segment.name.empty())
         throw InputError(file.path.string() + ": holds several labels without names, where one mask an organ is " +
                          "wanted: give it by itself with --label-table");
       if (segment.name.empty()) segment.name = file.name;
-      const SegmentMask mask = mask_of_label(map.layers[segment.layer], segment.number);
+      const int from = segment.number;
       combined_.origin[++number_] = {
           file.path.filename().string(), digest::of_file(file.path), "unknown", "mm", segment.number, segment.name, ""};
       segment.number = number_;
-      layers_->add(std::move(segment), mask);
+      const LabelVolume& layer = map.layers[segment.layer];
+      layers_.add(std::move(segment), layer, from);
     }
     for (const std::string& note : map.notes)
       if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
@@ -164,8 +153,8 @@ class MaskGatherer {
   }
 
   CombinedMasks take() {
-    if (!layers_) throw InputError(input_ + ": holds no mask that marks a voxel");
-    combined_.map = layers_->take();
+    if (number_ == 0) throw InputError(input_ + ": holds no mask that marks a voxel");
+    combined_.map = layers_.take();
     if (!empty_.empty())
       notes_.push_back(std::to_string(empty_.size()) + (empty_.size() == 1 ? " mask marks" : " masks mark") +
                        " no voxel and were left out: " + listed_words(empty_, empty_.size()));
@@ -176,8 +165,7 @@ class MaskGatherer {
 
  private:
   std::string input_, grid_file_;
-  std::optional<SegmentLayers> layers_;
-  VoxelGrid grid_;
+  SegmentLayers layers_;
   CombinedMasks combined_;
   std::vector<std::string> notes_, empty_;
   int number_ = 0;
@@ -262,7 +250,8 @@ CombinedMasks combined_masks(const OrganFiles& files, const std::vector<std::str
     report(progress, "reading masks", static_cast<double>(n) / static_cast<double>(chosen.size()));
     std::optional<LabelMap> mask;
     try {
-      mask = read_label_map(chosen[n].path, {}, how);
+      mask = is_volume_file(chosen[n].path) ? read_label_map(chosen[n].path, {}, how)
+                                            : read_dicom_segmentation(chosen[n].path);
     } catch (const InputError& no_mask) {
       gatherer.set_image(chosen[n], image_among(chosen[n], reading, {}, no_mask));
     }

@@ -1,8 +1,8 @@
 // Several files that are one patient: a folder or a zip of one mask an organ (TotalSegmentator's own output), or files
 // and surfaces named one by one.
 //
-// The name of a file is the name of its organ. Masks share a grid. A folder or zip with DICOM in it is none of these.
-// Thread: any, not the tick (file I/O).
+// The name of a file is the name of its organ. Masks may be cut-outs of one grid. A folder or zip with DICOM in it is
+// none of these. Thread: any, not the tick (file I/O).
 #pragma once
 
 #include <filesystem>
@@ -53,8 +53,8 @@ struct CombinedMasks {
   std::optional<ImageVolume> image;   ///< that lay among the masks
 };
 
-/// @throws InputError naming the file: not a mask, another grid than the first, several labels without names; no mask
-/// that marks a voxel
+/// @throws InputError naming the file: not a mask, not on the lattice of the first, several labels without names; no
+/// mask that marks a voxel
 CombinedMasks combined_masks(const OrganFiles& files, const std::vector<std::string>& wanted,
                              const VolumeReading& reading, const Progress& progress);
 

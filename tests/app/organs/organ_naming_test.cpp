@@ -218,13 +218,29 @@ TEST(OrganFileSets, AFolderAndAZipOfMasksAreOneScene) {
   EXPECT_CONTAINS(trial.refusal(), "holds no file of \"kidney\"; it holds brain, heart, liver, spleen");
 }
 
+TEST(OrganFileSets, MasksCutOutOfOneGridAreLaidOnIt) {
+  Trial trial("s");
+  std::map<std::string, std::string> files;
+  write_masks(trial.folder.path(), files);
+  const Json whole = trial.imported();
+  LabelVolume upper = halves(0, 1);  // as 3D Slicer exports it: the slices with something in them
+  const std::size_t below = upper.offset(0, 0, 10);
+  upper.labels.erase(upper.labels.begin(), upper.labels.begin() + static_cast<std::ptrdiff_t>(below));
+  upper.size[2] -= 10, upper.index_to_ras_mm.translation() = upper.index_to_ras_mm * Eigen::Vector3d(0, 0, 10);
+  trial.folder.write("s/spleen.nii.gz", nifti(upper));
+  const Json cut_out = trial.imported();
+  ASSERT_EQ(cut_out["organs"].size(), 2U);
+  EXPECT_EQ(cut_out["contacts"], whole["contacts"]);
+  for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(cut_out["organs"][n]["bbox_m"], whole["organs"][n]["bbox_m"]);
+}
+
 TEST(OrganFileSets, MasksOfAnotherGridOrOfNothingAreRefused) {
   Trial trial("a.nii.gz");
   trial.folder.write("a.nii.gz", nifti(halves(1, 0)));
-  const LabelVolume other = test::ball_volume(20, 3, {0, 0, 0}, 20);
+  const LabelVolume other = test::ball_volume(20, 3.5, {0, 0, 0}, 20);
   trial.folder.write("b.nii.gz", nifti(other));
   trial.options.more_inputs = {(trial.folder / "b.nii.gz").string()};
-  EXPECT_CONTAINS(trial.refusal(), "b.nii.gz: lies on another grid (20 x 20 x 20 voxels of 3 x 3 x 3 mm");
+  EXPECT_CONTAINS(trial.refusal(), "b.nii.gz: lies on another grid (20 x 20 x 20 voxels of 3.5 x 3.5 x 3.5 mm");
   EXPECT_CONTAINS(trial.refusal(), ") than a.nii.gz (24 x 24 x 24 voxels of 3 x 3 x 3 mm");
   trial.folder.write("b.nii.gz", "");
   EXPECT_CONTAINS(trial.refusal(), "b.nii.gz");

@@ -188,7 +188,8 @@ const CataloguedSeries& choose(const DicomCatalogue& all, DicomKind kind, std::o
   if (fitting == 0) throw InputError(input + ": holds no series of " + what + "; it holds" + list);
   if (fitting > 1)
     throw InputError(input + ": holds " + std::to_string(fitting) + " series of " + what +
-                     "; choose one with --series N:" + list);
+                     "; choose one with --series N" +
+                     (kind == DicomKind::kSegmentation ? ", or all with --all:" : ":") + list);
   if (chosen->facts.kind != kind)
     throw InputError(input + ": series " + std::to_string(*number) + " is not one of " + what + "; it holds" + list);
   return *chosen;

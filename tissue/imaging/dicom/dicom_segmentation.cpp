@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_catalogue.h"
@@ -204,16 +205,51 @@ LabelMap numbered(const SegmentationHeader& header, const SegmentationGrid& grid
   return map;
 }
 
-LabelMap assembled(const SegmentationHeader& header, const SegmentationGrid& grid, const Progress& progress) {
+/// Without layers when it marks no voxel.
+LabelMap assembled(const DicomInstance& file, const Progress& progress) {
+  const SegmentationHeader header = segmentation_header(file);
+  const SegmentationGrid grid(header, file);
   LabelMap map = header.content == SegmentationContent::kNumbers ? numbered(header, grid, progress)
                                                                  : layered(header, grid, progress);
-  if (map.layers.empty()) refuse(header.file, "marks no voxel at all");
   if (header.image().lossy)
     map.notes.emplace_back("The segmentation was compressed with loss before it came here: its edges may be off.");
   if (const int empty = grid.empty_slices(); empty > 0)
     map.notes.push_back("The segmentation leaves " + std::to_string(empty) +
                         " slices out between its first and last; they are empty.");
   return map;
+}
+
+/// Several files as one map, their segments counted from 1.
+LabelMap joined(const std::vector<const DicomInstance*>& files, const std::string& input, const Progress& progress) {
+  SegmentLayers layers(input);
+  std::vector<std::string> notes;
+  int count = 0;
+  for (const DicomInstance* file : files) {
+    LabelMap map = assembled(*file, progress);
+    for (const std::string& note : map.notes) notes.push_back(file->name + ": " + note);
+    if (map.layers.empty()) {
+      notes.push_back(file->name + " marks no voxel and was left out.");
+      continue;
+    }
+    if (!layers.hold(grid_of(map.layers.front())))
+      refuse(*file, "lies on another grid than the segmentation files before it: give one of them");
+    for (Segment& segment : map.segments) {
+      const LabelVolume& layer = map.layers[segment.layer];
+      const int number = std::exchange(segment.number, ++count);
+      layers.add(std::move(segment), layer, number);
+    }
+  }
+  LabelMap map = layers.take();
+  notes.push_back(std::to_string(files.size()) + " segmentation files were taken together: " + files.front()->name +
+                  " to " + files.back()->name + "; their segments are counted from 1.");
+  map.notes = std::move(notes);
+  return map;
+}
+
+std::vector<const DicomInstance*> files_of(const CataloguedSeries& series) {
+  std::vector<const DicomInstance*> files;
+  for (const DicomInstance& file : series.instances) files.push_back(&file);
+  return files;
 }
 
 }  // namespace
@@ -223,17 +259,21 @@ LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progr
   return read_dicom_segmentation(DicomStudy(input, progress), progress, number);
 }
 
-LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress, std::optional<int> number) {
-  const DicomInput& files = study.files();
+LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress, std::optional<int> number,
+                                 bool every) {
+  const std::string& input = study.files().name();
   const DicomCatalogue& all = study.catalogue();
-  const CataloguedSeries& series = choose(all, DicomKind::kSegmentation, number, files.name(), "a segmentation");
-  if (series.instances.size() != 1)
-    throw InputError(files.name() + ": the series holds " + std::to_string(series.instances.size()) +
-                     " segmentation files (" + series.instances[0].name + ", " + series.instances[1].name +
-                     ", ...): give one of them");
-  const DicomInstance& file = series.instances.front();
-  const SegmentationHeader header = segmentation_header(file);
-  LabelMap map = assembled(header, SegmentationGrid(header, file), progress);
+  std::vector<const DicomInstance*> files;
+  if (every && !number) {
+    for (const CataloguedSeries& series : all.series)
+      if (series.facts.kind == DicomKind::kSegmentation)
+        for (const DicomInstance* file : files_of(series)) files.push_back(file);
+  }
+  if (files.empty()) files = files_of(choose(all, DicomKind::kSegmentation, number, input, "a segmentation"));
+  LabelMap map = files.size() == 1 ? assembled(*files.front(), progress) : joined(files, input, progress);
+  if (map.layers.empty())
+    throw InputError((files.size() == 1 ? files.front()->name + ": marks" : input + ": its segmentations mark") +
+                     " no voxel at all");
   map.notes.insert(map.notes.begin(), all.notes.begin(), all.notes.end());
   return map;
 }

@@ -17,10 +17,12 @@ class DicomStudy;
 
 /// @param input a SEG file; or a folder, zip or DICOMDIR that holds one
 /// @param series number as list_dicom gives it, where the input holds several segmentations
+/// Several files of the series become one map, their segments counted from 1.
+/// @param every takes the segmentations of all series, where no number is given
 /// @throws InputError naming the file and what is wrong
 LabelMap read_dicom_segmentation(const std::filesystem::path& input, const Progress& progress = {},
                                  std::optional<int> series = {});
-LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress = {},
-                                 std::optional<int> series = {});
+LabelMap read_dicom_segmentation(const DicomStudy& study, const Progress& progress = {}, std::optional<int> series = {},
+                                 bool every = false);
 
 }  // namespace trocar

@@ -1,12 +1,14 @@
-// Segments on one grid, laid into as few layers as their overlaps allow.
+// Segments on one lattice of voxels, laid into as few layers as their overlaps allow.
 //
-// Each goes into the first layer where it meets no other. Thread: one owner.
+// Each goes into the first layer where it meets no other. Those of several maps, which may be cut-outs of one image,
+// are laid on the least grid that holds all. Thread: one owner.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "tissue/imaging/labels/label_grid.h"
 #include "tissue/imaging/labels/label_map.h"
 
 namespace trocar {
@@ -33,17 +35,25 @@ class SegmentLayers {
   /// @param name of the file in messages
   SegmentLayers(const std::array<int, 3>& size, const Eigen::Affine3d& frame, std::string name);
 
+  /// Of nothing so far: the grid is the one that is held first.
+  explicit SegmentLayers(std::string name) : name_(std::move(name)) {}
+
+  /// Makes room for a grid. @return false when it is not on the lattice of what there is (label_grid.h, common_grid)
+  bool hold(const VoxelGrid& grid);
+  const VoxelGrid& grid() const { return grid_; }
+
   /// @throws InputError when so many segments overlap that their layers would be larger than an import may hold
   /// @param segment its layer is found here
   void add(Segment segment, const SegmentMask& mask);
+  /// What `volume`, whose grid is held, marks with `number`. @throws InputError as above
+  void add(Segment segment, const LabelVolume& volume, int number);
   /// Layers in RAS order; empty when nothing was added.
   LabelMap take();
 
  private:
   bool free(const LabelVolume& layer, const SegmentMask& mask) const;
 
-  std::array<int, 3> size_;
-  Eigen::Affine3d frame_;
+  VoxelGrid grid_;
   std::string name_;
   LabelMap map_;
 };

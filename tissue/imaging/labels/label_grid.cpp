@@ -65,6 +65,28 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm) {
   return true;
 }
 
+std::optional<VoxelGrid> common_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm) {
+  const Eigen::Vector3d shift = (a.index_to_ras_mm.inverse() * b.index_to_ras_mm.translation()).array().round();
+  if (!(shift.array().abs() <= static_cast<double>(kMostLabelVoxels)).all()) return std::nullopt;
+  VoxelGrid there = b;  // where b would lie on a's lattice
+  there.index_to_ras_mm.linear() = a.index_to_ras_mm.linear();
+  there.index_to_ras_mm.translation() = a.index_to_ras_mm * shift;
+  if (!same_grid(there, b, tolerance_mm)) return std::nullopt;
+  VoxelGrid both = a;
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  double count = 1;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    low[axis] = std::min(0.0, shift[axis]);
+    const double extent = std::max<double>(a.size[n], shift[axis] + b.size[n]) - low[axis];
+    count *= extent;
+    if (count > static_cast<double>(kMostLabelVoxels)) return std::nullopt;
+    both.size[n] = static_cast<int>(extent);
+  }
+  both.index_to_ras_mm.translation() = a.index_to_ras_mm * low;
+  return both;
+}
+
 LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const Progress& progress) {
   check_grid(grid);
   const Eigen::Affine3d map = volume.index_to_ras_mm.inverse() * grid.index_to_ras_mm;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "tissue/imaging/labels/label_volume.h"
@@ -23,6 +24,10 @@ VoxelGrid grid_of(const ImageVolume& volume);
 
 /// Same size, and no voxel centre further than `tolerance_mm` from its namesake.
 bool same_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm = 1e-2);
+
+/// The least grid that holds every voxel of both, where their centres fall on one lattice (cut-outs of one image).
+/// @return nothing when they do not, by more than `tolerance_mm`, or when it would hold more voxels than a map may
+std::optional<VoxelGrid> common_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm = 1e-2);
 
 /// The label of the voxel of `volume` that is nearest to each voxel centre of `grid`; 0 outside the volume.
 /// @throws InputError when the grid is not a grid (size below 1, singular affine)

@@ -6,6 +6,7 @@
 #include "haptics/input_error.h"
 #include "tests/tissue/imaging/dicom/gdcm_fixture.h"
 #include "tests/tissue/imaging/dicom/segmentation_fixture.h"
+#include "tests/tissue/imaging/volumes/volume_files.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/dicom/dicom_segmentation.h"
 
@@ -378,9 +379,33 @@ TEST_F(DicomSegmentation, AFolderWithItsImagesWillDo) {
   for (std::size_t n = 0; n < slices.size(); ++n) folder_.write("ct" + std::to_string(n), slices[n].file());
   folder_.write("seg", fixture.file());
   expect_holds(read_dicom_segmentation(folder_.path()), fixture);
-  folder_.write("seg2", fixture.file());
+}
+
+/// As archives keep them: a file an organ, each with the slices that mark something.
+TEST_F(DicomSegmentation, SeveralFilesOfASeriesAreOneMap) {
+  SegmentationFixture first = random_segmentation(12, 2, 3), second = random_segmentation(13, 1, 4), empty = first;
+  for (SegmentationFrame& frame : second.frames) frame.position.z() += 2 * 2.5;
+  for (SegmentationFrame& frame : empty.frames) std::fill(frame.values.begin(), frame.values.end(), 0);
+  second.labels = {"Spleen"};
+  for (const auto& [name, file] : {std::pair("a", &first), {"b", &second}, {"c", &empty}})
+    folder_.write(name, file->file());
+  const LabelMap map = read_dicom_segmentation(folder_.path());
+  ASSERT_EQ(map.segments.size(), 3U);
+  for (const LabelVolume& layer : map.layers) EXPECT_EQ(layer.size, (std::array<int, 3>{7, 5, 6}));
+  EXPECT_TRUE(has_note(map.notes, "c marks no voxel and was left out"));
+  EXPECT_TRUE(has_note(map.notes, "3 segmentation files were taken together"));
+  SegmentationFixture all = first;
+  all.labels = {"Organ 1", "Organ 2", "Spleen"};
+  for (SegmentationFrame frame : second.frames) frame.segment = 3, all.frames.push_back(frame);
+  expect_holds(map, all);
+
+  for (SegmentationFrame& frame : second.frames) frame.position.x() += 0.2;
+  folder_.write("b", second.file());
   EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_segmentation(folder_.path()); }),
-                  "holds 2 segmentation files");
+                  "b: lies on another grid than the segmentation files before it");
+  folder_.write("a", empty.file()), folder_.write("b", empty.file());
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_dicom_segmentation(folder_.path()); }),
+                  "its segmentations mark no voxel at all");
 }
 
 }  // namespace

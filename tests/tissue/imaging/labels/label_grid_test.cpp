@@ -62,6 +62,28 @@ TEST(LabelGrid, AgreementIsJudgedAtTheCorners) {
   EXPECT_FALSE(same_grid(a, b));
 }
 
+TEST(LabelGrid, CutOutsOfOneImageHaveACommonGrid) {
+  VoxelGrid a{{10, 11, 12}, Eigen::Affine3d::Identity()};
+  a.index_to_ras_mm.linear() = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) *
+                               Eigen::Matrix3d(Eigen::Vector3d(0.7, 0.8, 2.5).asDiagonal());
+  VoxelGrid b{{4, 20, 3}, a.index_to_ras_mm};
+  b.index_to_ras_mm.translation() = a.index_to_ras_mm * Eigen::Vector3d(-3, 5, 30);
+  const std::optional<VoxelGrid> both = common_grid(a, b), turned = common_grid(b, a);
+  ASSERT_TRUE(both && turned);
+  EXPECT_EQ(both->size, (std::array<int, 3>{13, 25, 33}));
+  EXPECT_LT((both->index_to_ras_mm.translation() - a.index_to_ras_mm * Eigen::Vector3d(-3, 0, 0)).norm(), 1e-9);
+  EXPECT_TRUE(same_grid(*both, *turned, 1e-9));
+  EXPECT_TRUE(same_grid(*common_grid(a, a), a, 1e-9));
+  b.index_to_ras_mm.translation().x() += 0.3;
+  EXPECT_FALSE(common_grid(a, b)) << "between the voxels";
+  b = a, b.index_to_ras_mm.linear().col(1) *= 1.01;
+  EXPECT_FALSE(common_grid(a, b)) << "other spacing";
+  b = a, b.index_to_ras_mm.translation() = a.index_to_ras_mm * Eigen::Vector3d(1e5, 1e5, 1e5);
+  EXPECT_FALSE(common_grid(a, b)) << "too large";
+  b.index_to_ras_mm.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(common_grid(a, b));
+}
+
 TEST(LabelGrid, MapOfAnotherGridGoesThroughThePatient) {
   const LabelVolume fine = test::ball_volume(40, 1, {0, 0, 0}, 12);
   ImageVolume image;
