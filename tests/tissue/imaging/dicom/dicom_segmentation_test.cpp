@@ -245,6 +245,15 @@ TEST_F(DicomSegmentation, Jpeg2000AndJpegLsAreRead) {
       bits);
 }
 
+TEST_F(DicomSegmentation, LossBeforeItCameIsTold) {
+  const SegmentationFixture fractions = random_segmentation(15, 1, 3, 255, kLarge);
+  const auto code = [&](const auto& frame) { return coded(fractions, frame, kJpegLsLossless, 8); };
+  const LabelMap map = read(fractions.file("1.2.840.10008.1.2.4.81", code));  // JPEG-LS that may lose, and need not
+  expect_holds(map, fractions);
+  EXPECT_TRUE(has_note(map.notes, "compressed with loss"));
+  EXPECT_FALSE(has_note(read(fractions.file(kJpegLsLossless, code)).notes, "compressed with loss"));
+}
+
 TEST_F(DicomSegmentation, LabelMapsCarryTheirOwnNumbers) {
   for (const int bits : {8, 16}) {
     const SegmentationFixture map = label_map(14, bits);
