@@ -154,6 +154,33 @@ TEST(LabelComplex, EveryBorderIsAClosedManifoldWhateverTheFields) {
   }
 }
 
+/// Two slabs a sample apart that touch over one half, and in single samples, a step over a corner apart, over the
+/// other.
+TEST(LabelComplex, DottedContactBesideALargeOneIsParted) {
+  constexpr int kExtent = 40;
+  std::vector<RegionField> fields(2);
+  for (auto& f : fields) f.field.size = {kExtent, kExtent, kExtent}, f.field.values.resize(kExtent * kExtent * kExtent);
+  for (int k = 1; k < kExtent - 1; ++k)
+    for (int j = 1; j < kExtent - 1; ++j)
+      for (int i = 1; i < kExtent - 1; ++i) {
+        const bool touches = i < 8 || (i > 14 && i + j == 44);
+        const std::size_t region = k < 10 ? 0 : 1;
+        if (k != 10 || touches) fields[region].field.values[fields[region].field.offset(i, j, k)] = 1;
+      }
+  const LabelComplex complex = label_complex(fields, {kExtent, kExtent, kExtent}, Vec3::Ones(), 1);
+  std::size_t shared = 0;
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    if (complex.regions[t][0] == 0) continue;
+    ++shared;
+    for (const auto v : complex.triangles[t]) EXPECT_LT(complex.vertices[static_cast<std::size_t>(v)].x(), 9);
+  }
+  EXPECT_GT(shared, 100U);
+  for (int region = 1; region <= 2; ++region) {
+    const SurfaceTopology facts = analyse_topology(complex.border(region));
+    EXPECT_TRUE(facts.closed() && facts.manifold()) << region;
+  }
+}
+
 TEST(ComplexMesh, RandomEditsKeepEveryBorderAClosedManifold) {
   ComplexMesh mesh(random_regions(3, 6));
   unsigned seed = 5;

@@ -65,55 +65,80 @@ class Regions {
   }
 
   /// Parts two regions where they touch in a few samples only, beside a larger contact: such islands would have rims
-  /// far shorter than a wanted edge. The samples of the later region go to the rest.
+  /// far shorter than a wanted edge. The larger region's samples go to the rest, no more than a tenth of them.
   void part_islands() {
-    for (auto& [pair, samples] : contacts()) {
-      std::vector<std::vector<std::size_t>> islands = clusters(samples);
+    std::map<Region, std::size_t> count, lost;
+    for (const Region region : winner_) ++count[region];
+    for (auto& [pair, samples] : contacts(count)) {
+      std::vector<std::vector<std::size_t>> islands = clusters(pair[0], samples);
       const auto largest = std::max_element(islands.begin(), islands.end(),
                                             [](const auto& a, const auto& b) { return a.size() < b.size(); });
-      for (auto island = islands.begin(); island != islands.end(); ++island)
-        if (island != largest && island->size() <= kIslandSamples)
-          for (const std::size_t sample : *island) winner_[sample] = 0;
+      for (auto island = islands.begin(); island != islands.end(); ++island) {
+        if (island == largest || island->size() > kIslandSamples) continue;
+        if (10 * (lost[pair[1]] + island->size()) > count[pair[1]]) continue;
+        lost[pair[1]] += island->size();
+        for (const std::size_t sample : *island) winner_[sample] = 0;
+      }
     }
   }
 
  private:
-  /// Samples of the later of two regions that touch the earlier one along an edge of a tetrahedron, ascending.
-  std::map<std::array<Region, 2>, std::vector<std::size_t>> contacts() const {
-    const std::size_t row = offset(0, 1, 0), slice = offset(0, 0, 1);
-    const std::array<std::size_t, 7> steps{1, row, slice, row + 1, slice + 1, slice + row, slice + row + 1};
+  /// Steps along the edges of the tetrahedra that the cubes of samples are cut into, and back.
+  std::array<std::ptrdiff_t, 14> edge_steps() const {
+    const auto row = static_cast<std::ptrdiff_t>(offset(0, 1, 0)), slice = static_cast<std::ptrdiff_t>(offset(0, 0, 1));
+    const std::array<std::ptrdiff_t, 7> steps{1, row, slice, row + 1, slice + 1, slice + row, slice + row + 1};
+    std::array<std::ptrdiff_t, 14> both{};
+    for (std::size_t n = 0; n < steps.size(); ++n) both[2 * n] = -steps[n], both[2 * n + 1] = steps[n];
+    return both;
+  }
+
+  static std::size_t stepped(std::size_t sample, std::ptrdiff_t step) {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(sample) + step);
+  }
+
+  /// Samples of the larger of two regions that touch the other along an edge of a tetrahedron, ascending; by the other
+  /// and the larger.
+  std::map<std::array<Region, 2>, std::vector<std::size_t>> contacts(const std::map<Region, std::size_t>& count) const {
+    const auto steps = edge_steps();
     std::map<std::array<Region, 2>, std::vector<std::size_t>> found;
     for (std::size_t sample = 0; sample < winner_.size(); ++sample) {
-      if (winner_[sample] < 2) continue;  // the outermost samples are the rest: all neighbours are there
-      for (const std::size_t step : steps)
-        for (const Region other : {winner_[sample - step], winner_[sample + step]})
-          if (other > 0 && other < winner_[sample]) {
-            auto& samples = found[{other, winner_[sample]}];
-            if (samples.empty() || samples.back() != sample) samples.push_back(sample);
-          }
+      const Region here = winner_[sample];
+      if (here == 0) continue;  // the outermost samples are the rest: all neighbours are there
+      for (const std::ptrdiff_t step : steps) {
+        const Region other = winner_[stepped(sample, step)];
+        if (other == 0 || other == here) continue;
+        if (std::pair(count.at(other), other) > std::pair(count.at(here), here)) continue;
+        auto& samples = found[{other, here}];
+        if (samples.empty() || samples.back() != sample) samples.push_back(sample);
+      }
     }
     return found;
   }
 
-  /// Samples that hang together over faces, edges or corners. @param samples ascending
-  std::vector<std::vector<std::size_t>> clusters(const std::vector<std::size_t>& samples) const {
-    const auto row = static_cast<std::ptrdiff_t>(offset(0, 1, 0)), slice = static_cast<std::ptrdiff_t>(offset(0, 0, 1));
+  /// Contacts that hang together over a tetrahedron, as their faces do: of neighbours that touch one sample in common.
+  /// @param samples that touch `other`, ascending
+  std::vector<std::vector<std::size_t>> clusters(Region other, const std::vector<std::size_t>& samples) const {
+    const auto steps = edge_steps();
     std::vector<bool> seen(samples.size(), false);
+    const auto join = [&](std::vector<std::size_t>& cluster, std::size_t next) {
+      const auto found = std::lower_bound(samples.begin(), samples.end(), next);
+      if (found == samples.end() || *found != next || seen[static_cast<std::size_t>(found - samples.begin())]) return;
+      seen[static_cast<std::size_t>(found - samples.begin())] = true;
+      cluster.push_back(next);
+    };
     std::vector<std::vector<std::size_t>> result;
-    for (std::size_t start = 0; start < samples.size(); ++start) {
-      if (seen[start]) continue;
-      seen[start] = true;
-      std::vector<std::size_t>& cluster = result.emplace_back(1, samples[start]);
+    for (const std::size_t start : samples) {
+      std::vector<std::size_t> cluster;
+      join(cluster, start);
       for (std::size_t n = 0; n < cluster.size(); ++n)
-        for (std::ptrdiff_t around = 0; around < 27; ++around) {
-          const std::size_t next = cluster[n] + static_cast<std::size_t>(around % 3 - 1 + row * (around / 3 % 3 - 1) +
-                                                                         slice * (around / 9 - 1));
-          const auto found = std::lower_bound(samples.begin(), samples.end(), next);
-          if (found == samples.end() || *found != next || seen[static_cast<std::size_t>(found - samples.begin())])
-            continue;
-          seen[static_cast<std::size_t>(found - samples.begin())] = true;
-          cluster.push_back(next);
+        for (const std::ptrdiff_t to : steps) {
+          if (winner_[stepped(cluster[n], to)] != other) continue;
+          for (const std::ptrdiff_t back : steps) {
+            const bool edge = std::find(steps.begin(), steps.end(), to + back) != steps.end();
+            if (edge) join(cluster, stepped(cluster[n], to + back));
+          }
         }
+      if (!cluster.empty()) result.push_back(std::move(cluster));
     }
     return result;
   }
