@@ -1,4 +1,5 @@
 // The program: which commands there are, in the order of the help, and what an error becomes.
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -91,4 +92,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 }  // namespace trocar
 
-int main(int argc, char** argv) { return trocar::run_program(argc, argv); }
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full disk: told, and its pieces taken away
+  return trocar::run_program(argc, argv);
+}

@@ -31,6 +31,14 @@ NamedTable named_table(const std::string& given) {
   return named;
 }
 
+/// The name that the file itself gives.
+std::string own_name(const LabelMap& map, const Segment& wanted) {
+  const auto found = std::find_if(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
+    return segment.layer == wanted.layer && segment.number == wanted.number;
+  });
+  return found == map.segments.end() ? "" : found->name;
+}
+
 /// A label by number or name, with the name that the file gives it, else the table.
 ChosenLabel chosen_label(const LabelMap& map, const std::string& file, const NamedTable& named,
                          const std::string& wanted) {
@@ -40,11 +48,19 @@ ChosenLabel chosen_label(const LabelMap& map, const std::string& file, const Nam
   } catch (const InputError& error) {
     throw InputError(std::string(error.what()) + (wanted.empty() ? "" : " (--label " + wanted + ")"));
   }
-  const bool from_file = std::any_of(map.segments.begin(), map.segments.end(), [&](const Segment& segment) {
-    return segment.layer == chosen.segment.layer && segment.number == chosen.segment.number && !segment.name.empty();
-  });
-  if (!from_file && !chosen.segment.name.empty()) chosen.table = named.name;
+  if (own_name(map, chosen.segment) != chosen.segment.name) chosen.table = named.name;
   return chosen;
+}
+
+/// What the file calls otherwise than a person's own table, and codes that say another organ than the name.
+void tell_conflicts(const LabelMap& map, const std::vector<ChosenLabel>& chosen, std::vector<std::string>& decisions) {
+  for (const ChosenLabel& label : chosen) {
+    const Segment& segment = label.segment;
+    const std::string by_file = own_name(map, segment),
+                      called = "label " + std::to_string(segment.number) + " is called \"" + segment.name + "\"";
+    if (!by_file.empty() && folded_name(by_file) != folded_name(segment.name))
+      decisions.push_back(called + " by " + label.table + "; the file calls it \"" + by_file + "\"");
+  }
 }
 
 /// Whether a name is that of just one label: --name takes it then, where --label says nothing.
@@ -101,6 +117,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const LabelMap& map, const std::string& file,
                                        std::vector<std::string>& decisions) {
   const NamedTable named = named_table(options.label_table);
+  if (named.table != nullptr) require_agreement(map, *named.table, file);
   const auto choose = [&](const std::string& wanted) { return chosen_label(map, file, named, wanted); };
   std::vector<ChosenLabel> chosen;
   if (options.all) {
@@ -125,6 +142,7 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
     for (const std::string& wanted : options.label) chosen.push_back(choose(wanted));
   }
   refuse_twice(chosen, file);
+  tell_conflicts(map, chosen, decisions);
   return chosen;
 }
 

@@ -133,10 +133,23 @@ LabelMap segmented(const OrganImportOptions& options, const ImageVolume& image) 
   return map;
 }
 
+/// A cut-out of the image is laid on its grid, where all of it lies in it: then only the image's own border cuts
+/// organs.
+void lay_on(const VoxelGrid& grid, LabelMap& map) {
+  if (!common_grid(grid, grid_of(map.layers.front()))) return;
+  std::vector<LabelVolume> whole;
+  for (const LabelVolume& layer : map.layers) {
+    whole.push_back(resampled_to(layer, grid));
+    if (whole.back().label_counts() != layer.label_counts()) return;
+  }
+  map.layers = std::move(whole);
+}
+
 /// Labels that lie elsewhere than the image are not its labels; labels on a grid of their own are carried to it for
 /// image values.
 void relate(ImportSource& source, const Progress& progress) {
   const VoxelGrid grid = grid_of(*source.image);
+  lay_on(grid, source.map);
   if (same_grid(grid, grid_of(source.map.layers.front()))) return;  // one map has one grid in all its layers
   for (const LabelVolume& layer : source.map.layers) {
     source.on_image.push_back(on_grid_of(*source.image, layer, source.file, progress));

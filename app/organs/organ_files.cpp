@@ -89,14 +89,18 @@ OrganFiles of_list(const std::vector<std::string>& inputs) {
   return files;
 }
 
-/// An image that lies among masks, or the reason why the file is no mask.
+/// An image that lies among masks, or the reason why the file is no mask: values from 0 to 1 are shares of an organ.
 ImageVolume image_among(const OrganFile& file, const VolumeReading& reading, const Progress& progress,
                         const InputError& no_mask) {
+  std::optional<ImageVolume> image;
   try {
-    return read_image_volume(file.path, progress, reading);
+    image = read_image_volume(file.path, progress, reading);
   } catch (const InputError&) {
     throw no_mask;
   }
+  const auto [least, most] = std::minmax_element(image->values.begin(), image->values.end());
+  if (*least >= 0 && *most <= 1) throw no_mask;
+  return std::move(*image);
 }
 
 /// "24 x 24 x 24 voxels of 3 x 3 x 3 mm from -35, 12, 100 mm RAS"

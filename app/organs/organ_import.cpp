@@ -372,8 +372,7 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
   constexpr std::size_t kFaults = 3, kNotes = 4;
   const std::vector<std::string> faults = faults_of(written.organs, crossings_of(written));
   for (std::size_t n = 0; n < std::min(faults.size(), kFaults); ++n) err << "warning: " << faults[n] << "\n";
-  if (faults.size() > kFaults)
-    err << "warning: and " << faults.size() - kFaults << " more, which the page has; try another --triangles\n";
+  if (faults.size() > kFaults) err << "warning: and " << faults.size() - kFaults << " more, which the page has\n";
   const std::string ended = cut_organs(written);
   if (!ended.empty() && written.organs.size() > 1)
     err << "note: the image ends inside these, their flat cap is not anatomy: " << ended << "\n";

@@ -27,14 +27,23 @@ void require_known(const MaterialTable& table, const std::string& material) {
 /// The material of what has a name: by the name, else by the file's code, else soft tissue, which is said.
 void find_material(const MaterialTable& table, const std::vector<SegmentCode>& codes, OrganNaming& naming) {
   naming.material = folded_name(naming.name);
-  if (table.knows(naming.name)) return;
+  const bool known = table.knows(naming.name);
   for (const SegmentCode& code : codes) {
     if ((code.role != "type" && code.role != "region") || !table.knows(code.meaning)) continue;
+    const std::string coded = folded_name(code.meaning);
+    if (known && (naming.material.find(coded) != std::string::npos || coded.find(naming.material) != std::string::npos))
+      return;
+    if (known) {
+      naming.decisions.push_back("\"" + naming.name + "\" is its name, but its code " + code.scheme + " " + code.value +
+                                 " says \"" + code.meaning + "\": it was taken by the name");
+      return;
+    }
     naming.material = folded_name(code.meaning);
     naming.decisions.push_back("material " + naming.material + " by the file's code " + code.scheme + " " + code.value +
                                " \"" + code.meaning + "\"");
     return;
   }
+  if (known) return;
   naming.decisions.push_back("no material is called \"" + naming.name + "\": it feels like " + kFallbackMaterial +
                              " (--material says another)");
 }

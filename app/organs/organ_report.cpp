@@ -225,6 +225,27 @@ std::string organ_summary(const OrganManifest& manifest, const Eigen::AlignedBox
   return out.str() + "  more       trocar organ info " + manifest_file + ", or a page with --report\n";
 }
 
+/// "stomach +41.8 %, spleen -0.4 %": organs whose volume is not that of their label, the worst first.
+std::string volumes_off(const std::vector<CompiledMember>& organs) {
+  constexpr double kTold = 0.2;  // per cent
+  constexpr std::size_t kListed = 4;
+  std::vector<std::pair<double, std::string>> off;
+  for (const CompiledMember& organ : organs) {
+    const MeshFacts& mesh = organ.manifest.mesh;
+    if (mesh.label_volume_ml && std::abs(mesh.volume_error_pct) > kTold)
+      off.emplace_back(mesh.volume_error_pct, organ.manifest.name);
+  }
+  std::stable_sort(off.begin(), off.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::vector<std::string> words;
+  for (const auto& [percent, name] : off) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), " %+.1f %%", percent);
+    words.push_back(name + text.data());
+  }
+  return listed_words(words, kListed);
+}
+
 std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>& organs,
                           const std::string& manifest_file) {
   constexpr std::size_t kListed = 5;
@@ -250,6 +271,8 @@ std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>
         << " mm\n";
   }
   if (largest.size() > kListed) out << "  and " << largest.size() - kListed << " smaller ones\n";
+  if (const std::string off = volumes_off(organs); !off.empty())
+    out << "  not as labelled: " << off << " of their volume (parts, cavities, bridges: trocar organ info)\n";
   return out.str() + "  more       trocar organ info " + manifest_file + ", or a page with --report\n";
 }
 

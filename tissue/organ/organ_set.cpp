@@ -210,7 +210,9 @@ void require_sound(const Organ& organ) {
   if (faults.empty()) return;
   std::string text = organ.manifest.string() + ": no exercise can be done on it: " + faults.front();
   if (faults.size() > 1) text += ", and " + std::to_string(faults.size() - 1) + " more faults";
-  throw InputError(text + ": `trocar organ info` lists them; import it again with another --triangles");
+  throw InputError(
+      text +
+      ": `trocar organ info` lists them; import its organs again from labels that do not overlap, or one by itself");
 }
 
 std::filesystem::path write_organ_set(const std::filesystem::path& stem, OrganSet& set,

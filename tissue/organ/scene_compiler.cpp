@@ -83,9 +83,10 @@ std::vector<std::vector<std::size_t>> groups_of(const LabelVolume& volume, const
   return groups;
 }
 
-/// A filled cavity that holds another organ of the group is that organ's.
+/// A filled cavity that holds another organ of the group is that organ's, and was not filled so far.
 void give_back(Member& member, const LabelVolume& volume, const std::set<int>& numbers, int own) {
   std::size_t voxel = 0;
+  std::map<int, std::size_t> given;
   for (int k = 0; k < member.mask.size[2]; ++k)
     for (int j = 0; j < member.mask.size[1]; ++j)
       for (int i = 0; i < member.mask.size[0]; ++i, ++voxel) {
@@ -95,7 +96,15 @@ void give_back(Member& member, const LabelVolume& volume, const std::set<int>& n
         if (label == own || !numbers.contains(label)) continue;
         member.mask.inside[voxel] = 0;
         --member.mask.kept_voxels;
+        ++given[label];
       }
+  std::vector<std::size_t>& cavities = member.mask.cavities;  // largest first
+  for (const auto& [label, voxels] : given) {
+    const auto holding = std::find_if(cavities.rbegin(), cavities.rend(), [&](std::size_t n) { return n >= voxels; });
+    if (holding != cavities.rend()) *holding -= voxels;
+  }
+  std::sort(cavities.rbegin(), cavities.rend());
+  cavities.erase(std::find(cavities.begin(), cavities.end(), 0U), cavities.end());
 }
 
 class GroupCompiler {

@@ -22,7 +22,9 @@ constexpr double kSameFrameDirection = 2e-3, kSameFrameSpacing = 5e-4;
   throw InputError(file.name + ": " + what);
 }
 
-/// One grid for all frames: their orientation, pixel spacing and in-plane place must agree.
+/// One grid for all frames: their orientation, pixel spacing and in-plane place must agree. It has an empty slice
+/// before the first and behind the last: frames without a mark are left out as a rule, so where the frames end no image
+/// ends.
 class SegmentationGrid {
  public:
   SegmentationGrid(const SegmentationHeader& header, const DicomInstance& file)
@@ -35,7 +37,7 @@ class SegmentationGrid {
     }
     planes_ = even_planes(heights, "frames", file.name);
     if (planes_.step == 0) refuse(file, "marks a single slice: a volume needs two at least, an organ some dozens");
-    size_ = {header.file.columns, header.file.rows, planes_.count};
+    size_ = {header.file.columns, header.file.rows, planes_.count + 2};
     const double voxels = static_cast<double>(size_[0]) * size_[1] * size_[2];
     if (voxels > static_cast<double>(kMostVoxels))
       refuse(file, "spans more voxels than an import may hold (268 million)");
@@ -43,7 +45,7 @@ class SegmentationGrid {
 
   const std::array<int, 3>& size() const { return size_; }
   double step() const { return planes_.step; }
-  int slice_of(std::size_t frame) const { return planes_.slice[frame]; }
+  int slice_of(std::size_t frame) const { return planes_.slice[frame] + 1; }
   int empty_slices() const {
     std::vector<bool> used(static_cast<std::size_t>(planes_.count));
     for (const int slice : planes_.slice) used[static_cast<std::size_t>(slice)] = true;
@@ -55,7 +57,7 @@ class SegmentationGrid {
     lps.linear().col(0) = first_.along_row * first_.row_step;
     lps.linear().col(1) = first_.along_column * first_.column_step;
     lps.linear().col(2) = normal_ * planes_.step;
-    lps.translation() = first_.position + normal_ * (planes_.first - normal_.dot(first_.position));
+    lps.translation() = first_.position + normal_ * (planes_.first - planes_.step - normal_.dot(first_.position));
     return Eigen::Affine3d(Eigen::Scaling(-1.0, -1.0, 1.0)) * lps;
   }
 

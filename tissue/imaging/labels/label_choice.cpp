@@ -23,10 +23,10 @@ std::string joined_names(const std::vector<std::string>& words) {
 
 std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-/// The name that the file or the table gives a segment.
+/// The name that the file or the table gives a segment: a person's own table comes first, a built-in one last.
 std::string name_of(const Segment& segment, const LabelTable* table) {
-  if (!segment.name.empty() || table == nullptr) return segment.name;
-  return std::string(table->name_of(segment.number).value_or(""));
+  const auto by_table = table != nullptr ? table->name_of(segment.number) : std::nullopt;
+  return by_table && (table->own || segment.name.empty()) ? std::string(*by_table) : segment.name;
 }
 
 Segment named(const Segment& segment, const LabelTable* table) {
@@ -78,8 +78,8 @@ Segment only_one(const std::vector<Segment>& found, std::string_view wanted, con
     places += (places.empty() ? "" : ", ") + placed(segment);
     choices += (choices.empty() ? "" : " or ") + ("--label " + asked_as(segment, found));
   }
-  throw InputError(file + ": " + in_quotes(wanted) + " means " + std::to_string(found.size()) +
-                   " segments, which overlap in layers: " + places + "; choose one with " + choices);
+  throw InputError(file + ": " + in_quotes(wanted) + " means " + std::to_string(found.size()) + " segments: " + places +
+                   "; choose one with " + choices);
 }
 
 }  // namespace
@@ -90,6 +90,18 @@ std::optional<std::pair<std::size_t, int>> layer_and_number(std::string_view wan
   const auto layer = whole_label(wanted.substr(0, colon)), number = whole_label(wanted.substr(colon + 1));
   if (!layer || !number || *layer < 0) return std::nullopt;
   return std::pair(static_cast<std::size_t>(*layer), *number);
+}
+
+void require_agreement(const LabelMap& map, const LabelTable& table, const std::string& file) {
+  if (table.own) return;
+  for (const Segment& segment : map.segments) {
+    const auto name = table.name_of(segment.number);
+    if (segment.name.empty() || !name || folded_name(*name) == folded_name(segment.name)) continue;
+    throw InputError(
+        file + ": label " + std::to_string(segment.number) + " is " + in_quotes(segment.name) +
+        " by the file's own names and " + in_quotes(*name) + " in the table " + std::string(table.name) +
+        ": leave --label-table away to go by the file, or give a file of your own table, which goes first");
+  }
 }
 
 std::vector<std::string> guess_label_table(const LabelMap& map) {

@@ -15,6 +15,9 @@
 
 namespace trocar {
 
+/// @throws InputError naming the first label that the file calls otherwise than a built-in table
+void require_agreement(const LabelMap& map, const LabelTable& table, const std::string& file);
+
 /// Built-in tables that name every number of the map's unnamed segments; a hint for people, never used to name a
 /// segment.
 std::vector<std::string> guess_label_table(const LabelMap& map);
@@ -23,7 +26,8 @@ std::vector<std::string> guess_label_table(const LabelMap& map);
 std::optional<std::pair<std::size_t, int>> layer_and_number(std::string_view wanted);
 
 /// @param wanted number ("5"), name ("liver"), layer and number ("1:5"); "" when the map has one segment only
-/// @param table names of numbers that the file leaves unnamed; nullptr when nobody named one
+/// @param table names of numbers that the file leaves unnamed, a person's own one all that it has; nullptr when nobody
+/// named one
 /// @returns the segment, its name filled from the table where the file gives none ("" when no table names it)
 /// @throws InputError naming `file`: no such number or name, a name in two segments, a name where nothing gives names
 Segment choose_segment(const LabelMap& map, std::string_view wanted, const LabelTable* table, const std::string& file);

@@ -87,6 +87,29 @@ std::optional<VoxelGrid> common_grid(const VoxelGrid& a, const VoxelGrid& b, dou
   return both;
 }
 
+bool fills_grid(const LabelVolume& volume) {
+  std::array<std::array<bool, 2>, 3> reached{};
+  std::size_t voxel = 0;
+  for (int k = 0; k < volume.size[2]; ++k)
+    for (int j = 0; j < volume.size[1]; ++j)
+      for (int i = 0; i < volume.size[0]; ++i, ++voxel) {
+        if (volume.labels[voxel] == 0) continue;
+        const std::array<int, 3> place{i, j, k};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if (place[axis] == 0) reached[axis][0] = true;
+          if (place[axis] + 1 == volume.size[axis]) reached[axis][1] = true;
+        }
+      }
+  return std::all_of(reached.begin(), reached.end(), [](const auto& sides) { return sides[0] && sides[1]; });
+}
+
+LabelVolume widened(const LabelVolume& volume) {
+  VoxelGrid grid = grid_of(volume);
+  for (int& extent : grid.size) extent += 2;
+  grid.index_to_ras_mm.translation() = volume.index_to_ras_mm * Eigen::Vector3d(-1, -1, -1);
+  return resampled_to(volume, grid);
+}
+
 LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const Progress& progress) {
   check_grid(grid);
   const Eigen::Affine3d map = volume.index_to_ras_mm.inverse() * grid.index_to_ras_mm;

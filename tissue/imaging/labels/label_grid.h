@@ -29,6 +29,12 @@ bool same_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm = 1e-
 /// @return nothing when they do not, by more than `tolerance_mm`, or when it would hold more voxels than a map may
 std::optional<VoxelGrid> common_grid(const VoxelGrid& a, const VoxelGrid& b, double tolerance_mm = 1e-2);
 
+/// Whether the labels reach the border of their grid on all six sides: a cut-out, as masks cropped to their organ are.
+bool fills_grid(const LabelVolume& volume);
+
+/// With one more layer of empty voxels on every side: of a cut-out, whose border is not the image's and cuts no organ.
+LabelVolume widened(const LabelVolume& volume);
+
 /// The label of the voxel of `volume` that is nearest to each voxel centre of `grid`; 0 outside the volume.
 /// @throws InputError when the grid is not a grid (size below 1, singular affine)
 LabelVolume resampled_to(const LabelVolume& volume, const VoxelGrid& grid, const Progress& progress = {});

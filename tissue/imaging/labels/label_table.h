@@ -20,6 +20,7 @@ struct LabelName {
 struct LabelTable {
   std::string_view name;
   std::span<const LabelName> labels;
+  bool own = false;  ///< a person's own file, whose names go before those of the label map
 
   std::optional<int> number_of(std::string_view label) const;
   std::optional<std::string_view> name_of(int number) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/labels/segment.h"
 
 namespace trocar {
 
@@ -77,8 +78,30 @@ struct Entry {
   Word number, name;
 };
 
+/// Where the number and the name of a line stand.
+struct Columns {
+  std::size_t number = 0, name = 1;
+};
+
+/// By the words of a heading; those of a table without one where it has no such words.
+/// @throws InputError when one of three columns or more would have to be guessed
+Columns columns_of(const Line& heading, const std::vector<Word>& words, const std::string& file) {
+  const auto place_of = [&](std::initializer_list<std::string_view> known) {
+    for (const std::string_view one : known)
+      for (std::size_t n = 0; n < words.size(); ++n)
+        if (folded_name(words[n].text) == one) return n;
+    return words.size();
+  };
+  Columns found{place_of({"number", "index", "label_value", "labelvalue", "value", "id", "key", "label", "idx"}),
+                place_of({"name", "label_name", "labelname", "structure", "organ", "region", "class", "label"})};
+  if (found.number < words.size() && found.name < words.size() && found.number != found.name) return found;
+  if (words.size() > 2)
+    throw InputError(file, heading.number, 1, "which columns are number and name? Call them \"number\" and \"name\"");
+  return {};
+}
+
 /// ITK-SNAP: eight columns, the name last and in quotation marks. 3D Slicer: number, name, colour.
-Entry entry_of(const Line& line, const std::string& file) {
+std::vector<Word> columns_in(const Line& line, const std::string& file) {
   const char separator = line.text.find('\t') != std::string_view::npos && line.text.find(',') == std::string_view::npos
                              ? '\t'
                          : line.text.find(',') != std::string_view::npos ? ','
@@ -86,8 +109,8 @@ Entry entry_of(const Line& line, const std::string& file) {
   std::vector<Word> words = words_of(line.text, separator);
   if (separator == '\t' && words.size() < 2) words = words_of(line.text, ' ');
   if (words.size() < 2) throw InputError(file, line.number, 1, "\"number,name\" is wanted");
-  const bool snap = separator == ' ' && words.size() >= 8 && line.text.ends_with('"');
-  return {words.front(), snap ? words.back() : words[1]};
+  if (separator == ' ' && words.size() >= 8 && line.text.ends_with('"')) return {words.front(), words.back()};
+  return words;
 }
 
 void check_name(const Word& name, int line, const std::string& file) {
@@ -118,19 +141,27 @@ OwnLabelTable parse_label_table(std::string_view text, const std::string& file) 
   contents->text = std::string(text.substr(0, kMostTableBytes + 1));
   if (text.size() > kMostTableBytes) throw InputError(file + ": larger than 1 MiB: no label table");
   bool first = true;
+  Columns columns;
   for (const Line& line : lines_of(contents->text)) {
-    const Entry entry = entry_of(line, file);
+    const std::vector<Word> words = columns_in(line, file);
     int number = 0;
-    const bool heading = std::exchange(first, false) && !is_whole(entry.number.text, number) &&
-                         entry.number.text.find_first_of("0123456789") == std::string_view::npos;
-    if (heading) continue;
+    const bool numberless =
+        std::none_of(words.begin(), words.end(), [&](const Word& word) { return is_whole(word.text, number); });
+    if (std::exchange(first, false) && numberless &&
+        words.front().text.find_first_of("0123456789") == std::string_view::npos) {
+      columns = columns_of(line, words, file);
+      continue;
+    }
+    if (words.size() <= std::max(columns.number, columns.name))
+      throw InputError(file, line.number, 1, "\"number,name\" is wanted");
+    const Entry entry{words[columns.number], words[columns.name]};
     if (!is_whole(entry.number.text, number) || number < 0 || number > 65535)
       throw InputError(file, line.number, entry.number.column, "no label number from 0 to 65535");
     check_name(entry.name, line.number, file);
     if (number != 0) keep(contents->entries, number, entry, line.number, file);
   }
   if (contents->entries.empty()) throw InputError(file + ": no entry \"number,name\"");
-  contents->table = {contents->name, contents->entries};
+  contents->table = {contents->name, contents->entries, true};
   OwnLabelTable table;
   table.contents_ = std::move(contents);
   return table;

@@ -92,7 +92,8 @@ std::string scale_to_mm(NiftiFields& fields, const std::string& asked, const std
   const std::string said = unit == 1 ? "metres" : unit == 3 ? "micrometres" : "no unit that is known";
   double scale = unit == 1 ? 1e3 : unit == 3 ? 1e-3 : 1;
   if (!asked.empty()) scale = millimetres_in(asked, "--unit", file);
-  if (unit == 2 && scale != 1) refuse_header(file, "--unit", "NIfTI is in mm; its header says so");
+  if (unit == 2 && scale != 1)
+    header.notes.push_back("the header says mm; lengths read in " + asked + ", as was asked for");
   if (unit == 2) return "";
   header.notes.push_back("xyzt_units says " + said + "; " +
                          (!asked.empty()           ? asked + " was taken, as --unit says"

@@ -2,6 +2,7 @@
 
 #include <expat.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <map>
@@ -99,8 +100,14 @@ void take_names(std::string_view xml, std::vector<Segment>& labels, std::vector<
     if (gatherer.twice.contains(number))
       notes.push_back("the label table in the header gives number " + std::to_string(number) +
                       " two names; it stays without one");
-    else
+    else if (const auto before = std::find_if(labels.begin(), labels.end(),
+                                              [&, n = number](const Segment& other) { return other.number == n; });
+             before == labels.end())
       labels.push_back(std::move(label));
+    else if (before->name != label.name)
+      notes.push_back("the label tables in the header give number " + std::to_string(number) +
+                      " two names; it stays without one"),
+          before->name.clear();
   }
 }
 
@@ -114,7 +121,7 @@ std::vector<Segment> nifti_labels(std::span<const unsigned char> bytes, bool swa
     const std::size_t length = four_bytes(bytes, swapped);
     if (length <= 8 || length > bytes.size()) break;  // the extensions end here, or are damaged
     const std::string_view xml = trimmed_xml(bytes.subspan(8, length - 8));
-    if (labels.empty() && xml.find("<CaretExtension") != std::string_view::npos) take_names(xml, labels, notes);
+    if (xml.find("<CaretExtension") != std::string_view::npos) take_names(xml, labels, notes);
     bytes = bytes.subspan(length);
   }
   return labels;

@@ -253,8 +253,14 @@ double nrrd_unit_mm(const NrrdFields& header, const VolumeReading& reading, std:
   }
   for (const char* field : {"spaceunits", "units"}) {
     if (!header.has(field)) continue;
-    for (const std::string& unit : nrrd_words(header, field))
-      if (!unit.empty() && unit != "none" && unit != "???") return millimetres_in(unit, field, header.file);
+    std::optional<double> scale;
+    for (const std::string& unit : nrrd_words(header, field)) {
+      if (unit.empty() || unit == "none" || unit == "???") continue;
+      const double own = millimetres_in(unit, field, header.file);
+      if (own != scale.value_or(own)) header.refuse(field, "different units along different axes");
+      scale = own;
+    }
+    if (scale) return *scale;
   }
   return 1;
 }
@@ -300,6 +306,8 @@ VolumeHeader nrrd_volume_header(const fs::path& path, const VolumeReading& readi
   volume.component_axis = axes.component_axis;
   read_nrrd_frame(header, axes, reading, volume);
   volume.segments = nrrd_segments(header, volume.components, volume.notes);
+  if (const auto offset = header.keys.find("Segmentation_ReferenceImageExtentOffset"); offset != header.keys.end())
+    volume.cut_out = offset->second.text.find_first_of("123456789") != std::string::npos;
   volume.segmentation = !volume.segments.empty();
   volume.block = voxel_block(header, path);
   return volume;

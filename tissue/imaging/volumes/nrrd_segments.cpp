@@ -101,7 +101,7 @@ std::vector<Segment> nrrd_segments(const NrrdFields& header, int components, std
       continue;
     }
     Segment segment = entry.told;
-    segment.number = entry.number.value_or(1);
+    segment.number = entry.number.value_or(components == 1 ? kAnyNumber : 1);
     segment.layer = static_cast<std::size_t>(entry.layer.value_or(old_style ? index : 0));
     if (segment.layer >= static_cast<std::size_t>(components))
       throw InputError(header.file, entry.line, 1,

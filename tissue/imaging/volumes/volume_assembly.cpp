@@ -181,10 +181,27 @@ class LabelTaker {
 };
 
 /// What the header tells of a number; the bare number when it tells nothing.
-Segment told_of(const VolumeHeader& header, std::size_t layer, int number) {
-  for (const Segment& segment : header.segments)
+Segment told_of(const std::vector<Segment>& segments, std::size_t layer, int number) {
+  for (const Segment& segment : segments)
     if (segment.layer == layer && segment.number == number) return segment;
   return {layer, number};
+}
+
+/// The header's segments; the only one that says no number has that of a map with just one.
+std::vector<Segment> numbered(const VolumeHeader& header, const std::vector<std::size_t>& counts,
+                              std::vector<std::string>& notes) {
+  std::vector<Segment> segments = header.segments;
+  if (segments.empty() || segments.front().number != kAnyNumber) return segments;
+  const auto marked = [](std::size_t count) { return count > 0; };
+  const auto first = std::find_if(counts.begin() + 1, counts.end(), marked);
+  if (first != counts.end() && std::none_of(first + 1, counts.end(), marked)) {
+    segments.front().number = static_cast<int>(first - counts.begin());
+    return segments;
+  }
+  if (first != counts.end())
+    notes.push_back("the header's only segment (\"" + segments.front().name +
+                    "\") has no LabelValue, and several numbers mark voxels: none was given its name");
+  return {};
 }
 
 /// Our own phantom's map says in its header what made it, and no other map of that header has a skin: its numbers are
@@ -205,19 +222,20 @@ void note_unmarked(const std::vector<std::string>& names, std::vector<std::strin
 /// Segments in the order of layer and number; layers without any are left out.
 void list_segments(const VolumeHeader& header, const LabelTaker& taker, LabelMap& map) {
   std::vector<LabelVolume> layers;
+  const std::vector<Segment> told = numbered(header, taker.counts(0), map.notes);
   for (std::size_t layer = 0; layer < map.layers.size(); ++layer) {
     std::size_t marked = 0;
     if (header.segments.empty() && of_phantom(header, taker.counts(layer))) map.table = kPhantomTable;
     for (std::size_t number = 1; number < 65536; ++number) {
       if (taker.counts(layer)[number] == 0) continue;
-      map.segments.push_back(told_of(header, layer, static_cast<int>(number)));
+      map.segments.push_back(told_of(told, layer, static_cast<int>(number)));
       map.segments.back().layer = layers.size();
       ++marked;
     }
     if (marked > 0) layers.push_back(std::move(map.layers[layer]));
   }
   std::vector<std::string> unmarked;
-  for (const Segment& segment : header.segments)
+  for (const Segment& segment : told)
     if (taker.counts(segment.layer)[static_cast<std::size_t>(segment.number)] == 0)
       unmarked.push_back("\"" + segment.name + "\"");
   note_unmarked(unmarked, map.notes);

@@ -32,6 +32,9 @@ struct VoxelBlock {
   double slope = 1, intercept = 0;  ///< value = slope * stored + intercept
 };
 
+/// Of a header's only segment that does not say which number it has.
+inline constexpr int kAnyNumber = 0;
+
 struct VolumeHeader {
   std::string format;         ///< "NIfTI-1", for messages
   std::array<int, 3> size{};  ///< voxels along the three stored axes that lie in space
@@ -41,6 +44,7 @@ struct VolumeHeader {
   VoxelBlock block;
   std::string modality = "unknown";
   bool segmentation = false;      ///< the header names segments (.seg.nrrd)
+  bool cut_out = false;           ///< of a larger image, as the header says: its border cuts no organ
   std::vector<Segment> segments;  ///< that the header tells of, whether they mark a voxel or not
   std::string description = {};   ///< free text of a NIfTI header; "" elsewhere
   std::vector<std::string> notes;

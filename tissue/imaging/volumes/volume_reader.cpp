@@ -121,14 +121,19 @@ ImageVolume read_image_volume(const fs::path& path, const Progress& progress, co
 }
 
 LabelMap read_label_map(const fs::path& path, const Progress& progress, const VolumeReading& reading) {
-  LabelMap map = assemble_labels(header_of(path, reading), progress);
+  const VolumeHeader header = header_of(path, reading);
+  LabelMap map = assemble_labels(header, progress);
   if (map.segments.empty()) {
     if (reading.may_be_empty) return map;
     throw InputError(path.string() + ": data: the label map is empty (all voxels are 0)");
   }
-  if (lower_case(path.filename().string()).ends_with(".seg.nrrd") && map.segments.front().name.empty())
+  if (lower_case(path.filename().string()).ends_with(".seg.nrrd") && header.segments.empty())
     map.notes.push_back("named as a segmentation (.seg.nrrd), but its header names no segment");
   straighten(map, progress);
+  if (header.cut_out || (map.segments.size() == 1 && fills_grid(map.layers.front()))) {
+    for (LabelVolume& layer : map.layers) layer = widened(layer);
+    map.notes.emplace_back("a cut-out of a larger image: its border was taken to cut no organ");
+  }
   for (LabelVolume& layer : map.layers) layer.notes = map.notes;
   return map;
 }

@@ -62,7 +62,8 @@ class ObjReader {
     if (key == "v") return vertex(line);
     if (key == "f" || key == "fo") return face(line);
     if (key == "o" || key == "g") return group(trimmed_line(line));
-    if (key.starts_with('#') && result_.frame.empty()) return take_comment(line, "a comment", result_);
+    if (key.starts_with('#') && line.find('=') != std::string_view::npos)
+      return take_comment(line, "a comment", result_, file_);
     curves_ = curves_ || key == "curv" || key == "curv2" || key == "surf";
     lines_ = lines_ || key == "l" || key == "p";
   }

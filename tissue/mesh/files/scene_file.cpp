@@ -289,7 +289,7 @@ SurfaceFile read_scene(const fs::path& path, SurfaceKind kind, std::string_view 
     if (kind == SurfaceKind::kGlb || kind == SurfaceKind::kGltf) remarks = check_gltf(bytes, path);
     SurfaceFile result = read_with_assimp(path, kind);
     result.remarks.insert(result.remarks.begin(), remarks.begin(), remarks.end());
-    if (kind == SurfaceKind::kPly) take_comment(bytes.substr(0, bytes.find("end_header")), "a comment", result);
+    if (kind == SurfaceKind::kPly) take_comment(bytes.substr(0, bytes.find("end_header")), "a comment", result, file);
     return packed_scene(result);
   });
   return unpacked(answer, file);

@@ -46,7 +46,7 @@ SurfaceFile read_binary(std::string_view bytes, const std::string& file) {
                      " bytes: it is cut off, or no STL");
   check_count(count, kMaxTriangles, "triangles", file);
   SurfaceFile result;
-  take_comment(bytes.substr(0, 80), "the header", result);
+  take_comment(bytes.substr(0, 80), "the header", result, file);
   if (bytes.size() > wanted)
     result.remarks.push_back(std::to_string(bytes.size() - wanted) + " bytes behind the last triangle were left out");
   FilePart part;
@@ -86,11 +86,11 @@ SurfaceFile read_text(std::string_view bytes, const std::string& file) {
   while (!text.at_end()) {
     if (text.word() != "solid") text.refuse("\"solid\" expected");
     const std::string_view name = text.line();
-    if (result.parts.empty()) take_comment(name, "the header", result);
+    if (result.parts.empty()) take_comment(name, "the header", result, file);
     check_count(result.parts.size() + 1, kMaxParts, "solids", file);
     FilePart part;
     part.name =
-        slicer_space(name).empty() ? printable(name.substr(std::min(name.size(), name.find_first_not_of(" \t")))) : "";
+        slicer_spaces(name).empty() ? printable(name.substr(std::min(name.size(), name.find_first_not_of(" \t")))) : "";
     while (text.peek() == "facet") {
       text.word();
       add_facet(part.surface, text_corners(text));

@@ -1,6 +1,7 @@
 #include "tissue/mesh/files/surface_file.h"
 
 #include <algorithm>
+#include <regex>
 
 #include "haptics/input_error.h"
 
@@ -81,15 +82,28 @@ std::string printable(std::string_view name) {
   return text;
 }
 
-std::string slicer_space(std::string_view comment) {
-  for (const char* space : {"RAS", "LPS"})
-    if (comment.find("SPACE=" + std::string(space)) != std::string_view::npos) return space;
-  return {};
+/// What a comment says behind SPACE=: RAS and LPS with blanks round the sign and in any spelling of case; other words
+/// only where they are written as 3D Slicer would, for a comment may be about another space.
+std::vector<std::string> slicer_spaces(std::string_view comment) {
+  static const std::regex says(R"((^|[^A-Za-z])(SPACE\s{0,4}=\s{0,4})([A-Za-z]{1,16}))", std::regex::icase);
+  std::vector<std::string> spaces;
+  const std::string text(comment);
+  for (std::sregex_iterator found(text.begin(), text.end(), says); found != std::sregex_iterator(); ++found) {
+    std::string space = (*found)[3].str();
+    const bool exact =
+        (*found)[2] == "SPACE=" && std::none_of(space.begin(), space.end(), [](char c) { return c > 'Z'; });
+    for (char& letter : space) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    if (exact || space == "RAS" || space == "LPS") spaces.push_back(space);
+  }
+  return spaces;
 }
 
-void take_comment(std::string_view comment, const char* where, SurfaceFile& result) {
-  if (const std::string space = slicer_space(comment); !space.empty()) {
-    result.frame = space;
+void take_comment(std::string_view comment, const char* where, SurfaceFile& result, const std::string& file) {
+  for (const std::string& space : slicer_spaces(comment)) {
+    if (!result.frame.empty() && result.frame != space)
+      throw InputError(file + ": says SPACE=" + result.frame + " and SPACE=" + printable(space) +
+                       ": which of them holds, only the program that wrote it knows");
+    take_space(space, result, file);
     result.frame_source = std::string(where) + " says SPACE=" + space + ", as 3D Slicer writes it";
   }
   constexpr std::string_view kUnit = "UNIT=";
@@ -106,7 +120,7 @@ void take_comment(std::string_view comment, const char* where, SurfaceFile& resu
 
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file) {
   if (letters != "RAS" && letters != "LPS")
-    throw InputError(file + ": its field SPACE says \"" + printable(letters) +
+    throw InputError(file + ": its SPACE is \"" + printable(letters) +
                      "\", where 3D Slicer writes RAS or LPS: export it again from a program that knows its axes");
   result.frame = letters;
   result.frame_source = "the field SPACE says " + letters + ", as 3D Slicer writes it";

@@ -56,11 +56,13 @@ void take_vertices(TriangleSurface& surface, const std::vector<Vec3>& all, std::
 /// A name out of a file, safe to print: printable ASCII and at most kMaxNameBytes bytes.
 std::string printable(std::string_view name);
 
-/// "RAS" or "LPS" where a comment of 3D Slicer says "SPACE=RAS", "" where it says nothing.
-std::string slicer_space(std::string_view comment);
+/// "RAS" or "LPS" for each time that a comment of 3D Slicer says "SPACE=RAS", in any spelling of case; other words as
+/// they are.
+std::vector<std::string> slicer_spaces(std::string_view comment);
 /// Takes frame and unit from a comment or header: "SPACE=RAS" or "SPACE=LPS", as 3D Slicer writes them, and "UNIT=mm",
 /// "UNIT=cm" or "UNIT=m", which `organ export` adds. @param where "a comment", "the header", for messages
-void take_comment(std::string_view comment, const char* where, SurfaceFile& result);
+/// @throws InputError for two spaces, or one that nobody knows
+void take_comment(std::string_view comment, const char* where, SurfaceFile& result, const std::string& file);
 /// Takes the frame from the field "SPACE" that 3D Slicer writes into VTK files.
 /// @throws InputError for anything but RAS and LPS: axes that it names and nobody knows are no reason to take others
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file);

@@ -63,7 +63,7 @@ class LegacyReader {
     if (number < 1 || number >= 6)
       text_.refuse("version " + printable(first.substr(version + 8, 3)) + " is not read, only 1.0 to 5.1");
     modern_ = number >= 5;
-    take_comment(text_.line(), "the title", result_);
+    take_comment(text_.line(), "the title", result_, file_);
     const std::string_view form = text_.word();
     binary_ = form == "BINARY";
     if (!binary_ && form != "ASCII") text_.refuse("ASCII or BINARY expected");

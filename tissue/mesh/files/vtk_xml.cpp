@@ -313,7 +313,8 @@ SurfaceFile read_vtk_xml(std::string_view bytes, const std::string& file) {
     const auto space = field("SPACE");
     take_space(space.empty() ? "" : space.front(), result, file);
   }
-  if (const auto unit = field("UNIT"); !unit.empty()) take_comment("UNIT=" + unit.front(), "the field UNIT", result);
+  if (const auto unit = field("UNIT"); !unit.empty())
+    take_comment("UNIT=" + unit.front(), "the field UNIT", result, file);
   const std::vector<std::string> regions = field("REGIONS");
   std::size_t vertices = 0, triangles = 0;
   for (std::size_t n = 0; n < gatherer.pieces.size(); ++n) {

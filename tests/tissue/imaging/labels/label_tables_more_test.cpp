@@ -208,17 +208,33 @@ TEST(SegmentChoice, NamesAreTakenToTheLetterFirstAndElseInAnyCase) {
   EXPECT_THROW(choose_segment(two, "CLIP", nullptr, "m"), InputError) << "two names differ in case alone";
 }
 
+TEST(SegmentChoice, APersonsOwnTableGoesFirstAndABuiltInOneMayNotDisagree) {
+  const OwnLabelTable own = parse_label_table("index,label,name\n1,a,liver\n7,b,spleen\n", "own.csv");
+  const LabelMap map = map_of({{0, 1, "aorta"}, {0, 7, "liver"}});
+  EXPECT_EQ(choose_segment(map, "liver", &own.table(), "m").number, 1);
+  EXPECT_EQ(choose_segment(map, "7", &own.table(), "m").name, "spleen");
+  EXPECT_NO_THROW(require_agreement(map, own.table(), "m"));
+  EXPECT_CONTAINS(
+      test::message_of<InputError>([&] { require_agreement(map, label_table("totalsegmentator-v1"), "m.nii"); }),
+      "m.nii: label 1 is \"aorta\" by the file's own names and \"spleen\" in the table");
+  EXPECT_NO_THROW(require_agreement(map_of({{0, 1, "Spleen"}, {0, 2, ""}}), label_table("totalsegmentator-v1"), "m"));
+  EXPECT_CONTAINS(test::message_of<InputError>([] { parse_label_table("a,b,c\n1,2,liver\n", "own.csv"); }),
+                  "own.csv:1:1: which columns are number and name?");
+}
+
 TEST(SegmentChoice, ATableNamesOnlyWhatTheFileLeavesUnnamed) {
   const OwnLabelTable own = parse_label_table("1,liver\n2,spleen\n3,colon\n", "own.csv");
   const LabelMap map = map_of({{0, 1, "tumour"}, {0, 2, ""}, {0, 4, ""}});
-  EXPECT_EQ(choose_segment(map, "1", &own.table(), "m").name, "tumour");
-  EXPECT_EQ(choose_segment(map, "2", &own.table(), "m").name, "spleen");
-  EXPECT_EQ(choose_segment(map, "4", &own.table(), "m").name, "");
-  EXPECT_EQ(choose_segment(map, "spleen", &own.table(), "m").number, 2);
-  EXPECT_THROW(choose_segment(map, "liver", &own.table(), "m"), InputError);  // the file calls number 1 a tumour
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "colon", &own.table(), "m.nii"); }),
+  LabelTable table = own.table();
+  table.own = false;
+  EXPECT_EQ(choose_segment(map, "1", &table, "m").name, "tumour");
+  EXPECT_EQ(choose_segment(map, "2", &table, "m").name, "spleen");
+  EXPECT_EQ(choose_segment(map, "4", &table, "m").name, "");
+  EXPECT_EQ(choose_segment(map, "spleen", &table, "m").number, 2);
+  EXPECT_THROW(choose_segment(map, "liver", &table, "m"), InputError);  // the file calls number 1 a tumour
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "colon", &table, "m.nii"); }),
                   "m.nii: \"colon\" is number 3 in the table own.csv, which marks no voxel");
-  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "x", &own.table(), "m"); }),
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "x", &table, "m"); }),
                   "is no name in the table own.csv");
 }
 

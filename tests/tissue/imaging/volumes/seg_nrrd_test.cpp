@@ -41,7 +41,7 @@ TEST(SegNrrd, OverlappingSegmentsLieInLayers) {
   EXPECT_EQ(map.segments[2].layer, 1U);
   EXPECT_EQ(choose_segment(map, "left lobe", nullptr, "a").layer, 1U);
   const std::string both = test::message_of<InputError>([&] { choose_segment(map, "1", nullptr, "a.seg.nrrd"); });
-  EXPECT_CONTAINS(both, "\"1\" means 2 segments, which overlap in layers: 1 liver (layer 0), 1 left lobe (layer 1)");
+  EXPECT_CONTAINS(both, "\"1\" means 2 segments: 1 liver (layer 0), 1 left lobe (layer 1)");
   EXPECT_CONTAINS(both, "--label \"liver\" or --label \"left lobe\"");
   EXPECT_EQ(choose_segment(map, "1:1", nullptr, "a").name, "left lobe");
   EXPECT_CONTAINS(test::message_of<InputError>([&] { choose_segment(map, "1:7", nullptr, "a"); }),

@@ -94,9 +94,31 @@ TEST(Containers, SegmentationWithoutSegmentsSaysSo) {
   const std::string bytes =
       "NRRD0004\ntype: uchar\ndimension: 3\nspace: RAS\nsizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
       "encoding: raw\nspace origin: (0,0,0)\n\n" +
-      std::string(8, '\2');
+      std::string(7, '\2') + '\0';
   EXPECT_TRUE(test::has_note(read_label_map(folder.write("a.seg.nrrd", bytes)).notes, "names no segment"));
-  EXPECT_TRUE(read_label_map(folder.write("b.nrrd", bytes)).notes.empty());
+  EXPECT_FALSE(test::has_note(read_label_map(folder.write("b.nrrd", bytes)).notes, "names no segment"));
+}
+
+/// As 3D Slicer crops what it exports; without a word of it a single mask that fills its grid to all six sides.
+TEST(Containers, ACutOutHasRoomRoundIt) {
+  test::TemporaryFolder folder;
+  const auto nrrd = [&](const std::string& more, char low) {
+    return folder.write("a.seg.nrrd",
+                        "NRRD0004\ntype: uchar\ndimension: 3\nspace: RAS\nsizes: 2 2 2\nspace directions: (1,0,0) "
+                        "(0,1,0) (0,0,1)\nencoding: raw\nspace origin: (5,0,0)\n" +
+                            more + "\n" + std::string(4, low) + std::string(4, '\2'));
+  };
+  const std::string offset = "Segmentation_ReferenceImageExtentOffset:=";
+  for (const auto& [more, low, size] : {std::tuple(std::string(), '\2', 4),
+                                        {std::string(), '\0', 2},
+                                        {offset + "0 0 3\n", '\0', 4},
+                                        {offset + "0 0 0\n", '\0', 2}}) {
+    const LabelMap map = read_label_map(nrrd(more, low));
+    EXPECT_EQ(map.layers[0].size, (std::array<int, 3>{size, size, size})) << more << int{low};
+    EXPECT_EQ(test::has_note(map.notes, "a cut-out of a larger image"), size == 4);
+    EXPECT_EQ(map.layers[0].index_to_ras_mm.translation().x(), size == 4 ? 4 : 5);
+    EXPECT_EQ(map.layers[0].label_counts().at(2), low == 0 ? 4U : 8U);
+  }
 }
 
 TEST(Containers, FormatsAreListedForPeople) {

@@ -92,21 +92,28 @@ TEST(Names, AreSafeToPrint) {
   EXPECT_EQ(printable("VH_M liver"), "VH_M liver");
   EXPECT_EQ(printable("a\nb\x1b[31m\xff"), "a?b?[31m?");
   EXPECT_EQ(printable(std::string(500, 'x')).size(), kMaxNameBytes);
-  EXPECT_EQ(slicer_space("3D Slicer output. SPACE=LPS"), "LPS");
-  EXPECT_EQ(slicer_space("SPACE=RAS and more"), "RAS");
-  EXPECT_EQ(slicer_space("a solid without a word"), "");
+}
+
+TEST(SlicerSpaces, AreFoundHoweverTheyAreWritten) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(slicer_spaces("3D Slicer output. SPACE=LPS"), Words{"LPS"});
+  EXPECT_EQ(slicer_spaces("SPACE=RAS and more"), Words{"RAS"});
+  EXPECT_EQ(slicer_spaces("comment SPACE = LPS\ncomment space=ras"), (Words{"LPS", "RAS"}));
+  EXPECT_EQ(slicer_spaces("SPACE=XYZ"), Words{"XYZ"}) << "refused: nobody knows it";
+  EXPECT_EQ(slicer_spaces("color space=sRGB, WORKSPACE=RAS"), Words{});
+  EXPECT_EQ(slicer_spaces("a solid without a word"), Words{});
 }
 
 TEST(SurfaceComment, SaysFrameAndUnitAsWholeWords) {
   for (const auto& [comment, unit_m] :
        {std::pair{"SPACE=RAS UNIT=mm", 1e-3}, std::pair{"UNIT=cm\nelement", 1e-2}, std::pair{"UNIT=m", 1.0}}) {
     SurfaceFile file;
-    take_comment(comment, "a comment", file);
+    take_comment(comment, "a comment", file, "f");
     EXPECT_EQ(file.unit_m, unit_m) << comment;
   }
   for (const char* other : {"UNIT=micron", "UNIT=mmHg", "UNIT=", "unit=mm"}) {
     SurfaceFile file;
-    take_comment(other, "a comment", file);
+    take_comment(other, "a comment", file, "f");
     EXPECT_EQ(file.unit_m, std::nullopt) << other;
   }
 }

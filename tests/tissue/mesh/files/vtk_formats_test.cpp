@@ -49,7 +49,7 @@ TEST(VtkLegacy, FieldsOfTextAreReadAndSpaceIsTaken) {
     return kHead + "DATASET POLYDATA\nFIELD FieldData 2\nSPACE 1 1 string\n" + field + "T 1 1 int\n5\n" + solid;
   };
   EXPECT_EQ(read_vtk_legacy(with_field("LPS\n"), "a.vtk").frame, "LPS");
-  EXPECT_CONTAINS(refusal(with_field("up\n")), "its field SPACE says \"up\"");
+  EXPECT_CONTAINS(refusal(with_field("up\n")), "its SPACE is \"up\"");
   EXPECT_CONTAINS(refusal(kHead + "DATASET POLYDATA\nFIELD FieldData 1\nSPACE 1 9 string\nLPS\n"), "cut off");
 }
 

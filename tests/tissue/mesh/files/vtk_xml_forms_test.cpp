@@ -65,7 +65,7 @@ TEST(VtkXmlForms, TheFieldSpaceSaysTheAxes) {
       read_vtk_xml(with_field("<Array type=\"String\" Name=\"Note\" format=\"ascii\">76 80 83 0</Array>"), "a.vtp")
           .frame,
       "");
-  EXPECT_CONTAINS(refusal(with_field(space("88 0"))), "its field SPACE says \"X\"");
+  EXPECT_CONTAINS(refusal(with_field(space("88 0"))), "its SPACE is \"X\"");
 }
 
 TEST(VtkXmlForms, StripsBesidePolygons) {
