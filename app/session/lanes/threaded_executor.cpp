@@ -38,6 +38,8 @@ struct ThreadedExecutor::Lane {
   std::int64_t wished_ns = 0, last_ns = 0;  // next wake, and when the one before was
   std::int64_t stood_ns = 0;                // pauses that the wished times have been moved by
   std::function<bool()> answers;            // of the board that its tasks read; empty: always there
+  std::function<bool()> board;              // waits for the board's clock; empty: there is none
+  int processor = -1;
   LaneReport report;
   std::thread thread;
   std::exception_ptr thrown;
@@ -53,10 +55,14 @@ void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> task
   lane->period_ns = std::llround(lane->tasks.front()->period() / rate_hz_ * 1e9);
   lane->offset_ns = std::llround(offset / rate_hz_ * 1e9);
   lane->report.name = name;
+  lane->report.period_us = std::llround(static_cast<double>(lane->period_ns) * 1e-3);
   lanes_.push_back(std::move(lane));
 }
 
 void ThreadedExecutor::await(std::function<bool()> answers) { lanes_.back()->answers = std::move(answers); }
+
+void ThreadedExecutor::pace_by(std::function<bool()> board) { lanes_.back()->board = std::move(board); }
+void ThreadedExecutor::pin(int processor) { lanes_.back()->processor = processor; }
 
 void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> tasks) {
   add_lane(name, std::move(tasks), 0);
@@ -104,8 +110,7 @@ void ThreadedExecutor::join() {
 void ThreadedExecutor::work(Lane& lane) noexcept {
   try {
     lane.report.refusal = become_real_time(lane.priority);
-    const bool given = lane.priority > 0 && lane.report.refusal.empty();
-    lane.report.policy = given ? "SCHED_FIFO " + std::to_string(lane.priority) : "SCHED_OTHER";
+    if (lane.processor >= 0 && stay_on(lane.processor).empty()) lane.report.processor = lane.processor;
     pace(lane, {});
   } catch (...) {
     lane.thrown = std::current_exception();
@@ -137,17 +142,23 @@ bool ThreadedExecutor::stood_still(Lane& lane, const std::function<bool()>& inte
 void ThreadedExecutor::pace(Lane& lane, const std::function<bool()>& interrupted) {
   const FlushDenormals flush;
   LaneReport& report = lane.report;
-  if (report.policy.empty()) report.policy = "SCHED_OTHER";
+  report.policy = thread_policy();
   lane.wished_ns = start_ns_ + lane.offset_ns;
   lane.last_ns = lane.wished_ns - lane.period_ns;
   for (; !stop_.load(std::memory_order_relaxed); lane.wished_ns += lane.period_ns) {
-    do sleep_until(lane.wished_ns);
-    while (stood_still(lane, interrupted));
+    bool by_board = false;
+    do {
+      by_board = lane.board && lane.board();
+      if (!by_board) sleep_until(lane.wished_ns);
+    } while (stood_still(lane, interrupted));
     if (stop_.load(std::memory_order_relaxed)) break;
     const std::int64_t woken = now_ns(CLOCK_MONOTONIC);
     report.late.add(woken - lane.wished_ns);
+    const bool first = report.wakes == 0;
+    report.awake_s += 1e-9 * static_cast<double>(woken - (first ? std::min(woken, lane.wished_ns) : lane.last_ns));
+    if (!first) report.period.add(woken - lane.last_ns);
     const std::int64_t missed = std::max<std::int64_t>(0, (woken - lane.wished_ns) / lane.period_ns);
-    lane.wished_ns += missed * lane.period_ns;
+    lane.wished_ns = by_board ? woken : lane.wished_ns + missed * lane.period_ns;
     report.missed += static_cast<std::uint64_t>(missed);
     report.longest_gap_ns = std::max(report.longest_gap_ns, woken - lane.last_ns);
     lane.last_ns = woken;
