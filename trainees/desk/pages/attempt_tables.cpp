@@ -3,6 +3,7 @@
 
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/pacing.h"
 #include "trainees/markup/score_words.h"
 
 namespace trocar::review {
@@ -142,10 +143,21 @@ std::string verdict_band(const AttemptView& view) {
            (o.passed ? "Passed" : "Not passed") + " by decision of " + verbatim(o.printed) + "</strong>, " +
            date_html(o.utc) + ": " + verbatim(o.reason) + " <small>The score above stays as it was.</small></p>";
   }
+  if (const std::string soft = soft_real_time(view.result.device); has && !soft.empty())
+    out += "<p class=\"override\">" + shape("integrity") + escape_html(soft) + "</p>";
   return out + "</section>";
 }
 
 namespace {
+
+/// The loop's receipt of a live attempt; "" in lockstep.
+std::string pace_part(const RunReport& d) {
+  const std::optional<Pacing> pacing = parse_pacing(d.realtime);
+  if (!pacing) return "";
+  std::string out = "<h3>Pace of the loop</h3><dl class=\"facts wide\">";
+  for (const auto& [name, value] : pacing_facts(*pacing)) out += fact(name, value);
+  return out + "</dl>" + pacing_plot_svg(*pacing, d.rate_hz);
+}
 
 /// Rows of the table of events, and how many they are. @param least severity; at most 200 rows.
 std::pair<std::string, std::size_t> event_rows(const AttemptView& view, Severity least) {
@@ -262,7 +274,7 @@ std::string device_facts(const AttemptView& view) {
     rows += "<tr><th scope=\"row\">" + escape_html(w.name) + "</th>" + number_cell(fixed_text(w.first_s, 2) + " s") +
             number_cell(std::to_string(w.ticks)) + "</tr>";
   if (!rows.empty()) out += table("Warnings of the device loop", head_cells({"Warning", ">First", ">Ticks"}), rows);
-  return section("device", "Run report", out);
+  return section("device", "Run report", out + pace_part(d));
 }
 
 std::string origin_facts(const AttemptView& view) {
