@@ -63,11 +63,11 @@ std::string spread_text(const PacingSpread& s) {
          microseconds(s.p999_us) + ", longest " + microseconds(s.max_us);
 }
 
-constexpr double kPacingWidth = 1000, kPacingHeight = 250, kPacingTop = 34, kPacingBottom = 196, kPanel = 284,
-                 kPanelGap = 40, kPanelLeft = 56, kCharacter = 7.6;
+constexpr double kPacingWidth = 1000, kPacingHeight = 250, kPacingTop = 34, kPacingBottom = 196, kPanel = 280,
+                 kPanelGap = 38, kPanelLeft = 66, kCharacter = 7.6;
 constexpr int kInDecade = 6;  // bins
 
-/// Place of a bin's inner end in the row of all bins: 1, 2, 3, 5, 7, 10, 15, 20 ...; those below zero to the left.
+/// Place of a bin in the row of all bins: 1, 2, 3, 5, 7, 10, 15, 20 ...; those below zero to the left.
 double place_of(std::int64_t lower_us) {
   constexpr std::array<double, 6> kSteps{10, 15, 20, 30, 50, 70};  // of a decade
   auto magnitude = static_cast<double>(std::abs(lower_us));
@@ -87,11 +87,6 @@ std::string tick_words(std::int64_t us) {
                                         : std::to_string(magnitude));
 }
 
-std::string count_words(int decade) {
-  constexpr std::array<const char*, 8> kWords{"1", "10", "100", "1000", "10k", "100k", "1M", "10M"};
-  return kWords[static_cast<std::size_t>(std::clamp(decade, 0, 7))];
-}
-
 /// One histogram, both axes logarithmic: a single late tick among thousands must be seen.
 class PacingPanel {
  public:
@@ -106,13 +101,12 @@ class PacingPanel {
     std::string out = label(left_, 20, title, "start", "font-weight=\"bold\"");
     for (int decade = 0; decade <= decades_; ++decade) {
       out += line(left_, y(decade), left_ + kPanel, y(decade), "stroke=\"#000\" stroke-opacity=\"0.12\"");
-      if (names_counts) out += label(left_ - 6, y(decade) + 5, count_words(decade), "end");
+      if (names_counts) out += label(left_ - 6, y(decade) + 5, fixed_text(std::pow(10, decade), 0), "end");
     }
     for (const auto& [lower, count] : bins_) {
       if (count == 0) continue;
       const double top = y(std::log10(static_cast<double>(count)));
-      const double begin = place_of(lower) - (lower < 0 ? 1 : 0);  // a bin reaches away from zero
-      out += rect(x(begin) + 0.5, top, std::max(1.0, step() - 1), kPacingBottom - top, "fill=\"#0072b2\"");
+      out += rect(x(place_of(lower)) + 0.5, top, std::max(1.0, step() - 1), kPacingBottom - top, "fill=\"#0072b2\"");
     }
     const double one = x(place_of(static_cast<std::int64_t>(period_us)));
     if (one < left_ + kPanel)
@@ -133,9 +127,11 @@ class PacingPanel {
     std::vector<std::pair<double, double>> taken;
     for (const std::int64_t us :
          {0L, 10L, 1000L, -10L, -1000L, 100L, -100L, 10'000L, 100'000L, 1'000'000L, -10'000L, 1L}) {
-      const double at = x(place_of(us)), half = kCharacter * static_cast<double>(tick_words(us).size()) / 2;
-      if (at < left_ - 1 || at > left_ + kPanel) continue;
-      out += line(at, kPacingBottom, at, kPacingBottom + 4, "stroke=\"#555\"");
+      const double tick = x(place_of(us) + (us < 0 ? 1 : 0));  // a bin below zero ends there
+      const double half = kCharacter * static_cast<double>(tick_words(us).size()) / 2;
+      if (tick < left_ - 1 || tick > left_ + kPanel + 1) continue;
+      out += line(tick, kPacingBottom, tick, kPacingBottom + 4, "stroke=\"#555\"");
+      const double at = std::clamp(tick, left_ + half - 8, left_ + kPanel - half + 8);  // off the next panel's
       if (std::any_of(taken.begin(), taken.end(),
                       [&](const auto& other) { return std::abs(other.first - at) < other.second + half + 4; }))
         continue;

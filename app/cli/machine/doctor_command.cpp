@@ -143,7 +143,7 @@ Finding kernel() {
   const std::string text = std::string(name.sysname) + " " + name.release;
   if (first_line("/sys/kernel/realtime") == "1") return {"kernel", State::kGood, text + ", real-time"};
   return {"kernel", State::kWarning,
-          text + (in_container() ? ": not a real-time kernel; it is the host's, which a device needs one on"
+          text + (in_container() ? ": not a real-time kernel; it is the host's: a device wants one there"
                                  : ": not a real-time kernel; for a device: apt install linux-image-rt-amd64")};
 }
 
@@ -219,7 +219,8 @@ Finding clock_state() {
   timex now = {};
   if (adjtimex(&now) != TIME_ERROR) return {"clock", State::kGood, "set by a time server"};
   return {"clock", State::kWarning,
-          "nobody sets it: times in the record are this machine's own; sudo timedatectl set-ntp true"};
+          std::string("nobody sets it: times in the record are this machine's own; ") +
+              (in_container() ? "on the host: " : "") + "sudo timedatectl set-ntp true"};
 }
 
 /// Files of a folder whose names begin so, with whether they may be used.
@@ -253,7 +254,8 @@ Finding boards() {
 }
 
 /// Whether one of this machine's networks is the one that a card is on.
-Finding card_network(const std::string& card) {
+Finding card_network(const std::string& given) {
+  const std::string card = given.empty() ? Hostmot2Options{}.card : given;
   const std::string address = card.substr(0, card.find(':'));
   in_addr wanted{};
   if (::inet_pton(AF_INET, address.c_str(), &wanted) != 1) return {"network", State::kProblem, card + ": no address"};
@@ -269,7 +271,7 @@ Finding card_network(const std::string& card) {
   }
   ::freeifaddrs(all);
   if (!there.empty()) return {"network", State::kGood, address + ", where a Mesa card would be, lies on " + there};
-  return {"network", State::kGood,
+  return {"network", given.empty() ? State::kGood : State::kWarning,
           "none leads to " + address +
               ", where a Mesa card would be: for one, give a port of its own an address beside " +
               "it (docs/real_hardware.md)"};
@@ -314,7 +316,7 @@ std::vector<Finding> findings(const DoctorOptions& options) {
       clock_state(),
       serial_lines(),
       boards(),
-      card_network(options.card.empty() ? Hostmot2Options{}.card : options.card)};
+      card_network(options.card)};
   if (no_file.empty()) found.push_back(disk_room(file));
   if (!options.card.empty()) found.push_back(needed("card", [&] { return card_words(options.card); }));
   if (!options.sensor.empty()) found.push_back(needed("sensor", [&] { return sensor_words(options.sensor); }));

@@ -15,7 +15,8 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kWatchPeriod = 20'000'000;  // ns: how often an idle calling thread looks for the end
 constexpr std::int64_t kPauseLook = 2'000'000;     // ns: how soon a lane sees that a pause is over
-constexpr std::int64_t kSettle = 5'000'000;        // ns for the threads to be there before the first period
+constexpr std::int64_t kReadyLook = 200'000;       // ns: how soon a beginning is seen
+constexpr std::int64_t kSettle = 5'000'000;        // ns from there to the first period
 
 std::int64_t now_ns(clockid_t clock) {
   timespec now;
@@ -72,10 +73,16 @@ void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> 
 void ThreadedExecutor::run(const std::function<bool()>& interrupted) {
   const MemoryLock lock;
   lock_refusal_ = lock.refusal();
-  start_ns_ = now_ns(CLOCK_MONOTONIC) + kSettle;
+  std::size_t threads = 0;
   for (auto& lane : lanes_) {
-    if (lane.get() != own_) lane->thread = std::thread([this, &lane = *lane] { work(lane); });
+    if (lane.get() == own_) continue;
+    lane->thread = std::thread([this, &lane = *lane] { work(lane); });
+    ++threads;
   }
+  // On a busy machine a new thread may wait long for its first turn: no period is missed before all have had it.
+  while (ready_.load() < threads && !stop_.load()) sleep_until(now_ns(CLOCK_MONOTONIC) + kReadyLook);
+  start_ns_ = now_ns(CLOCK_MONOTONIC) + kSettle;
+  begun_.store(true);
   if (own_) {
     try {
       pace(*own_, interrupted);
@@ -111,6 +118,8 @@ void ThreadedExecutor::work(Lane& lane) noexcept {
   try {
     lane.report.refusal = become_real_time(lane.priority);
     if (lane.processor >= 0 && stay_on(lane.processor).empty()) lane.report.processor = lane.processor;
+    ready_.fetch_add(1);
+    while (!begun_.load() && !stop_.load()) sleep_until(now_ns(CLOCK_MONOTONIC) + kReadyLook);
     pace(lane, {});
   } catch (...) {
     lane.thrown = std::current_exception();

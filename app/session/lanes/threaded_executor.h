@@ -87,7 +87,8 @@ class ThreadedExecutor {
   PauseSwitch* pause_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   Lane* own_ = nullptr;
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, begun_{false};
+  std::atomic<std::size_t> ready_{0};  ///< threads that have what they asked for
   std::int64_t start_ns_ = 0;
   std::string lock_refusal_;
 };

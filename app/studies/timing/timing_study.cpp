@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -181,10 +182,15 @@ void add_notes(StudyResult& study, const TimedLoad& load) {
 }
 
 std::string machine_words() {
+  double load = 0;
+  ::getloadavg(&load, 1);
+  std::ostringstream busy;
+  busy << std::fixed << std::setprecision(1) << load;
   utsname name = {};
   ::uname(&name);
   return std::string(name.sysname) + " " + name.release + (real_time_kernel() ? ", real-time" : ", not real-time") +
-         ", " + std::to_string(std::thread::hardware_concurrency()) + " processors; simulated device of seed 1";
+         ", " + std::to_string(std::thread::hardware_concurrency()) + " processors, load " + busy.str() +
+         " from other programs before it began; simulated device of seed 1";
 }
 
 /// Slices in turn, back and forth, so that no pattern has the better minute.
@@ -212,6 +218,7 @@ StudyResult timing_result(const TimedLoad& busy, const TimedLoad& idle, const st
                  {"histograms.csv", histograms_csv({&busy, &idle})},
                  {"receipt_busy.svg", receipt_svg(busy.runs.front())},
                  {"receipt_idle.svg", receipt_svg(idle.runs.front())}};
+  study.notes.push_back("Machine: " + machine + ".");
   add_notes(study, busy);
   add_notes(study, idle);
   return study;
@@ -219,11 +226,12 @@ StudyResult timing_result(const TimedLoad& busy, const TimedLoad& idle, const st
 
 StudyResult timing_study(const StudyRequest& request) {
   const int processes = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+  const std::string machine = machine_words();
   live_attempt(0);  // the organ and the exercise are read before anything is timed
-  const double slice_s = request.quick ? 1 : 3;
-  const TimedLoad busy = timed(processes, request.quick ? 1 : 4, slice_s);
-  const TimedLoad idle = timed(0, request.quick ? 1 : 2, slice_s);
-  return timing_result(busy, idle, machine_words());
+  const double slice_s = request.quick ? 1 : 5;
+  const TimedLoad busy = timed(processes, request.quick ? 1 : 2, slice_s);
+  const TimedLoad idle = timed(0, 1, slice_s);
+  return timing_result(busy, idle, machine);
 }
 
 }  // namespace trocar
