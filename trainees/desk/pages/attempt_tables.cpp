@@ -150,15 +150,6 @@ std::string verdict_band(const AttemptView& view) {
 
 namespace {
 
-/// The loop's receipt of a live attempt; "" in lockstep.
-std::string pace_part(const RunReport& d) {
-  const std::optional<Pacing> pacing = parse_pacing(d.realtime);
-  if (!pacing) return "";
-  std::string out = "<h3>Pace of the loop</h3><dl class=\"facts wide\">";
-  for (const auto& [name, value] : pacing_facts(*pacing)) out += fact(name, value);
-  return out + "</dl>" + pacing_plot_svg(*pacing, d.rate_hz);
-}
-
 /// Rows of the table of events, and how many they are. @param least severity; at most 200 rows.
 std::pair<std::string, std::size_t> event_rows(const AttemptView& view, Severity least) {
   constexpr std::size_t kShown = 200;
@@ -274,7 +265,21 @@ std::string device_facts(const AttemptView& view) {
     rows += "<tr><th scope=\"row\">" + escape_html(w.name) + "</th>" + number_cell(fixed_text(w.first_s, 2) + " s") +
             number_cell(std::to_string(w.ticks)) + "</tr>";
   if (!rows.empty()) out += table("Warnings of the device loop", head_cells({"Warning", ">First", ">Ticks"}), rows);
-  return section("device", "Run report", out + pace_part(d));
+  return section("device", "Run report", out);
+}
+
+std::string pace_section(const AttemptView& view) {
+  const std::optional<Pacing> pacing = parse_pacing(view.result.device.realtime);
+  if (!pacing) return "";
+  std::string out = "<dl class=\"facts\">";
+  for (const auto& [name, value] : pacing_facts(*pacing)) out += fact(name, value);
+  const std::string plot = pacing_plot_svg(*pacing, view.result.device.rate_hz);
+  return section("pace", "Pace of the loop",
+                 out + "</dl>" +
+                     (plot.empty() ? ""
+                                   : figure(plot,
+                                            "How late the loop woke, how far its periods were off, how long a "
+                                            "tick worked.")));
 }
 
 std::string origin_facts(const AttemptView& view) {

@@ -198,7 +198,7 @@ TEST(AttemptPage, DeviceThatLackedRoomIsSaid) {
 TEST(AttemptPage, AReceiptIsPrintedAndDrawn) {
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});
-  const std::string device = page.by_id("device")->text;
+  const std::string device = page.by_id("pace")->text;
   for (const char* words : {"Pace of the loop", "SCHED_FIFO 80", "1000.0 Hz", "Linux 6.1.0, not real-time",
                             "2.1 on 2 processors", "Wake-up: late by", "Work of a tick"})
     EXPECT_NE(device.find(words), std::string::npos) << words << " in " << device;
