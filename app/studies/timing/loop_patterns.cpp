@@ -55,8 +55,12 @@ class Nothing final : public Task {
   void run(std::uint64_t) override {}
 };
 
+/// From the first time that it is asked: what comes before the run is no part of the slice.
 std::function<bool()> after(double seconds) {
-  return [end = monotonic_ns() + std::llround(seconds * 1e9)] { return monotonic_ns() >= end; };
+  return [seconds, end = std::int64_t{0}]() mutable {
+    if (end == 0) end = monotonic_ns() + std::llround(seconds * 1e9);
+    return monotonic_ns() >= end;
+  };
 }
 
 /// The loop's exercise, built once: a live attempt needs seconds for it.

@@ -18,9 +18,9 @@ PatternRun even_run(const std::string& name, std::int64_t late_us, std::uint32_t
   PatternRun run{name, "SCHED_FIFO 80", ""};
   run.late.add(late_us * 1000, wakes);
   if (name != "cyclictest") {
-    run.period.add(1'000'000, wakes - 1);
+    run.period.add(1'000'000, wakes > 0 ? wakes - 1 : 0);
     run.work.add(40'000, wakes);
-    run.awake_s = 1e-3 * (wakes - 1);
+    run.awake_s = wakes > 0 ? 1e-3 * (wakes - 1) : 0;
   }
   return run;
 }
@@ -79,6 +79,12 @@ TEST(TimingStudy, APercentileIsHeldAgainstCyclictests) {
       case_of(result_of(even_run("Trocar, live", 13), even_run("cyclictest", 9)), "wake-up late, p99, 2 busy processes")
           .met);
   EXPECT_TRUE(case_of(good, "wake-up late, p99, idle").met) << "without load it is told, not judged";
+}
+
+TEST(TimingStudy, WithoutAWakeNothingIsMet) {
+  const StudyResult study = result_of(even_run("Trocar, live", 0, 0), even_run("cyclictest", 9));
+  EXPECT_FALSE(case_of(study, "wake-up late, p99, 2 busy processes").met);
+  EXPECT_FALSE(case_of(study, "mean rate, Trocar, live, 2 busy processes").met);
 }
 
 TEST(TimingStudy, TheMeanRateIsAThousandToOneDecimal) {
