@@ -13,6 +13,7 @@
 #include "app/session/lanes/hand_task.h"
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/lockstep_executor.h"
+#include "app/session/lanes/real_time.h"
 #include "app/session/lanes/recorder_task.h"
 #include "app/session/lanes/replay_executor.h"
 #include "app/session/lanes/threaded_executor.h"
@@ -236,6 +237,8 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
     tissue.push_back(&messages.emplace(rig, attempt.rings->events, *hooks.messages, event_type::kMessage));
   executor.add_lane("haptic", attempt.haptic_lane(), kHapticPriority);
   if (hooks.board_answers) executor.await(hooks.board_answers);
+  executor.pace_by(attempt.backend.await_sync);
+  executor.pin(isolated_processor());
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   if (attempt.sensor) executor.add_lane("force-sensor", {&*attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);
@@ -245,6 +248,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
     witness.look();
     return hooks.interrupted && hooks.interrupted();
   });
+  if (hooks.paced) hooks.paced(executor);
   SessionOutcome out = attempt.outcome();
   out.device.realtime = realtime_json(executor, attempt.recorder.lost(), witness.seen());
   out.notes = realtime_notes(executor, attempt.recorder.lost());

@@ -24,6 +24,8 @@
 
 namespace trocar {
 
+class ThreadedExecutor;  // app/session/lanes/threaded_executor.h
+
 /// What a picture may see of the director: it runs on in another thread.
 class DirectorView {
  public:
@@ -60,9 +62,10 @@ struct SessionHooks {
   const MarkCount* marks = nullptr;                  ///< live: each step up is an event of the recording (bookmark.h)
   const MarkCount* messages = nullptr;               ///< likewise, of messages that were shown
   std::function<bool()> board_answers =
-      {};                        ///< live: while it says no, everything stands still; needs `pause`, and no exam
-  KeyframeRule keyframes = {};   ///< for playback
-  RecordingSeal seal = {};       ///< of record_session(): whose the recording is
+      {};  ///< live: while it says no, everything stands still; needs `pause`, and no exam
+  std::function<void(const ThreadedExecutor&)> paced = {};  ///< live: told when the run is over, how it was paced
+  KeyframeRule keyframes = {};                              ///< for playback
+  RecordingSeal seal = {};                                  ///< of record_session(): whose the recording is
   PauseSwitch* pause = nullptr;  ///< live: lets everything stand still, the simulated device too
 };
 

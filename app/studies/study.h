@@ -17,7 +17,7 @@ namespace trocar {
 struct StudyCase {
   std::string name, unit;
   double value = 0;
-  std::optional<double> thesis;  ///< the same measure on the thesis' method; absent where it has none
+  std::optional<double> thesis;  ///< the same measure on the thesis' method (StudyResult::beside); absent without one
   std::string bar;               ///< what is asked for, in words: "<= 0.03"
   bool met = false;
   std::string definition;  ///< how it was measured, one sentence
@@ -33,6 +33,7 @@ struct StudyCurves {
     std::vector<double> y;  ///< as long as x; NaN leaves a gap
   };
   std::vector<Series> series;
+  bool logarithmic = false;  ///< both axes; what is not above zero leaves a gap
 };
 
 /// A drawing or a table that is no set of curves: written as it stands.
@@ -58,6 +59,8 @@ struct StudyResult {
   std::vector<StudyCase> cases;
   std::vector<StudyCurves> curves;
   std::vector<StudyFile> files = {};
+  std::string beside = "thesis' law";   ///< what StudyCase::thesis is of
+  std::vector<std::string> notes = {};  ///< sentences under the table
 };
 
 }  // namespace trocar

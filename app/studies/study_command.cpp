@@ -25,6 +25,7 @@
 #include "app/studies/device/plant_study.h"
 #include "app/studies/device/velocity_study.h"
 #include "app/studies/study_files.h"
+#include "app/studies/timing/timing_study.h"
 #include "app/studies/tissue/soft_studies.h"
 #include "app/studies/workspace/workspace_study.h"
 #include "haptics/input_error.h"
@@ -67,6 +68,7 @@ constexpr std::array kStudies{
     KnownStudy{"multirate", multirate_study},
     KnownStudy{"solvers", solvers_study},
     KnownStudy{"tissue-scaling", tissue_scaling_study},
+    KnownStudy{"timing", timing_study},
 };
 
 std::string names_where(bool KnownStudy::*which) {

@@ -32,9 +32,15 @@ std::string csv_field(const std::string& text) { return text.find(',') == std::s
 struct Axis {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   double step = 1;
+  bool logarithmic = false;  ///< low, high and step are powers of ten
+  double last = 0;           ///< above it no tick is named: room for the legend
 
+  /// NaN where it has no place.
+  double place(double v) const { return !logarithmic ? v : v > 0 ? std::log10(v) : std::nan(""); }
+  std::string name(double tick) const { return rounded_text(logarithmic ? std::pow(10, tick) : tick, 6); }
   void take(const std::vector<double>& values) {
-    for (const double v : values) {
+    for (const double value : values) {
+      const double v = place(value);
       if (!std::isfinite(v)) continue;
       low = std::min(low, v);
       high = std::max(high, v);
@@ -45,11 +51,11 @@ struct Axis {
     if (!(low < high)) high = (low = std::isfinite(low) ? low - 0.5 : 0) + 1;
     const double wish = (high - low) / 6, power = std::pow(10, std::floor(std::log10(wish)));
     const double mantissa = wish / power;
-    step = power * (mantissa < 1.5 ? 1 : mantissa < 3.5 ? 2 : mantissa < 7.5 ? 5 : 10);
+    step = logarithmic ? 1 : power * (mantissa < 1.5 ? 1 : mantissa < 3.5 ? 2 : mantissa < 7.5 ? 5 : 10);
     low = step * std::floor(low / step + 1e-9);
     high = step * std::ceil(high / step - 1e-9);
   }
-  double share(double v) const { return (v - low) / (high - low); }
+  double share(double place) const { return (place - low) / (high - low); }
 };
 
 struct Frame {
@@ -72,8 +78,11 @@ void draw_axes(std::ostream& out, const Frame& f, const StudyCurves& curves) {
       const double y0 = axis == 0 ? kPlotTop : f.py(v), y1 = axis == 0 ? kPlotHeight - kPlotBottom : y0;
       out << "<line x1=\"" << rounded_text(x0) << "\" y1=\"" << rounded_text(y0) << "\" x2=\"" << rounded_text(x1)
           << "\" y2=\"" << rounded_text(y1) << "\" stroke=\"" << (v == 0 ? "#888" : "#ddd") << "\"/>\n";
-      draw_text(out, axis == 0 ? x0 : kPlotLeft - 8, axis == 0 ? kPlotHeight - kPlotBottom + 18 : y0 + 4,
-                rounded_text(v, 6), axis == 0 ? "text-anchor=\"middle\"" : "text-anchor=\"end\"");
+      const std::string name = axis == 1 && a.logarithmic && v > a.last + 1e-9 ? "" : a.name(v);
+      const bool at_edge = axis == 0 && name.size() > 5 && x0 > kPlotWidth - kPlotRight - 1;
+      draw_text(out, axis == 0 ? x0 + (at_edge ? kPlotRight - 2 : 0) : kPlotLeft - 8,
+                axis == 0 ? kPlotHeight - kPlotBottom + 18 : y0 + 4, name,
+                axis == 0 && !at_edge ? "text-anchor=\"middle\"" : "text-anchor=\"end\"");
     }
   }
   draw_text(out, kPlotLeft, 22, curves.title, "font-size=\"15\" font-weight=\"bold\"");
@@ -90,11 +99,12 @@ void draw_series(std::ostream& out, const Frame& f, const StudyCurves& curves, s
   const char* dash = kDashes[which % kDashes.size()];
   out << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"2\" stroke-dasharray=\"" << dash << "\" d=\"";
   for (std::size_t i = 0; i < y.size(); ++i) {
-    if (std::isfinite(y[i])) {
-      out << (pen_down ? 'L' : 'M') << std::fixed << std::setprecision(2) << f.px(curves.x[i]) << ' ' << f.py(y[i])
-          << ' ';
+    const double at = f.y.place(y[i]);
+    if (std::isfinite(at)) {
+      out << (pen_down ? 'L' : 'M') << std::fixed << std::setprecision(2) << f.px(f.x.place(curves.x[i])) << ' '
+          << f.py(at) << ' ';
     }
-    pen_down = std::isfinite(y[i]);
+    pen_down = std::isfinite(at);
   }
   out << "\"/>\n" << std::defaultfloat;
   const double spacing =
@@ -123,8 +133,11 @@ std::string curves_csv(const StudyCurves& curves) {
 
 std::string curves_svg(const StudyCurves& curves) {
   Frame frame;
+  frame.x.logarithmic = frame.y.logarithmic = curves.logarithmic;
   frame.x.take(curves.x);
   for (const auto& series : curves.series) frame.y.take(series.y);
+  frame.x.last = frame.x.high;
+  frame.y.last = frame.y.high;
   const double head_room = 0.12 * (frame.y.high - frame.y.low);  // the legend lies over no curve
   frame.y.high += head_room;
   frame.x.round();
@@ -148,16 +161,18 @@ std::string summary_json(const StudyResult& result) {
     if (c.thesis) entry["thesis"] = *c.thesis;
     json["cases"].push_back(entry);
   }
+  if (!result.notes.empty()) json["notes"] = result.notes;
   return json.dump(2) + "\n";
 }
 
 std::string table_markdown(const StudyResult& result) {
   std::ostringstream out;
-  out << "| measure | unit | thesis' law | Trocar | asked for | met |\n|---|---|---|---|---|---|\n";
+  out << "| measure | unit | " << result.beside << " | Trocar | asked for | met |\n|---|---|---|---|---|---|\n";
   for (const StudyCase& c : result.cases) {
     out << "| " << c.name << " | " << c.unit << " | " << (c.thesis ? rounded_text(*c.thesis) : "-") << " | "
         << rounded_text(c.value) << " | " << c.bar << " | " << (c.met ? "yes" : "no") << " |\n";
   }
+  for (const std::string& note : result.notes) out << '\n' << note << '\n';
   return out.str();
 }
 

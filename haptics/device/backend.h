@@ -4,6 +4,7 @@
 // Made by make_backend() (haptics/device/backends). Thread: whoever owns it; its parts say their own.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "haptics/device/data_acquisition.h"
@@ -23,6 +24,9 @@ struct Backend {
   std::unique_ptr<ForceSensor> sensor = {};  ///< at the stylus; nullptr: none
   SimulatedWorld* world = nullptr;           ///< plant and hand, part of `daq`; nullptr: a person holds a real device
   BackendAbilities can = {};
+  /// Waits for the board's own clock, in the haptic thread, before a read; false: it tells of none now, the caller
+  /// keeps the time. Empty: there is none. Neither allocates nor throws.
+  std::function<bool()> await_sync = {};
 };
 
 }  // namespace trocar

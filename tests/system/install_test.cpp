@@ -1,4 +1,7 @@
 // An installed program uses what was installed beside it, not the source tree it was built from.
+#include <unistd.h>
+
+#include <map>
 #include <sstream>
 
 #include "tests/system/system_fixture.h"
@@ -168,6 +171,42 @@ TEST_F(Installed, TheOtherShellsHaveTheirScripts) {
   expect_refusal({"completion", "tcsh"}, 2, "bash, zsh and fish are known");
 }
 
+/// As in a container or a bare machine: no rights, no home, no display, no language.
+TEST_F(Installed, DoctorIsTrueWithoutRightsAndSaysWhatToDo) {
+  Launch bare = launch({"doctor", "--json"});
+  for (const char* variable : {"HOME", "XDG_DATA_HOME", "DISPLAY", "WAYLAND_DISPLAY", "LANG", "LC_ALL", "LC_CTYPE"})
+    bare.environment[variable] = "";
+  if (::geteuid() == 0) {
+    bare.arguments = {"--bounding-set=-all", "--inh-caps=-all", bare.program.string(), "doctor", "--json"};
+    bare.program = "/usr/bin/setpriv";
+  }
+  const Outcome told = run_program(bare);
+  EXPECT_EQ(told.exit_code, 3) << told.out << told.err;
+  const Json json = Json::parse(told.out);
+  EXPECT_EQ(json.at("sound"), false);
+  std::map<std::string, Json> of;
+  for (const Json& finding : json.at("findings")) {
+    EXPECT_TRUE(of.emplace(finding.at("name"), finding).second) << finding << ": said twice";
+    EXPECT_TRUE(finding.at("state") == "ok" || finding.at("state") == "warning" || finding.at("state") == "problem");
+  }
+  const auto says = [&](const char* name, const char* state, const char* words) {
+    EXPECT_EQ(of[name].value("state", ""), state) << of[name];
+    EXPECT_NE(of[name].value("text", "").find(words), std::string::npos) << of[name];
+  };
+  says("database", "problem", "set HOME or give --db FILE");
+  says("display", "warning", "--headless");
+  says("locale", "warning", "none is set");
+  says("real-time", "warning", "does not get SCHED_FIFO 80");
+  EXPECT_FALSE(of.contains("rtprio")) << "one line about one thing";
+  EXPECT_TRUE(of.contains("network") && of.contains("boards") && of.contains("clock"));
+  bare.environment["container"] = "podman";
+  EXPECT_NE(run_program(bare).out.find("--cap-add=SYS_NICE"), std::string::npos) << "limits.conf is no help there";
+  bare.arguments.pop_back();
+  const std::string lines = run_program(bare).out;
+  for (const auto& [name, finding] : of)
+    EXPECT_NE(lines.find(" " + name + " "), std::string::npos) << name << ": the same facts as lines";
+}
+
 TEST_F(Installed, DoctorFindsWhatIsThereAndWhatIsNot) {
   Launch sound = launch({"doctor", "--json"});
   sound.program = folder_ / "prefix/bin/trocar";
@@ -178,9 +217,9 @@ TEST_F(Installed, DoctorFindsWhatIsThereAndWhatIsNot) {
   fs::rename(share("exercises"), share("gone"));
   const Outcome bad = installed({"doctor"});
   EXPECT_EQ(bad.exit_code, 3);
-  EXPECT_NE(bad.out.find("missing  assets"), std::string::npos) << bad.out;
+  EXPECT_NE(bad.out.find("problem  assets"), std::string::npos) << bad.out;
   folder_.write("text.db", std::string(5000, 'z'));
-  EXPECT_NE(trocar({"doctor", "--db", "text.db"}).out.find("missing  database    "), std::string::npos);
+  EXPECT_NE(trocar({"doctor", "--db", "text.db"}).out.find("problem  database    "), std::string::npos);
 }
 
 }  // namespace

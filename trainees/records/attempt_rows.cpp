@@ -171,7 +171,7 @@ std::string summary_query(const std::string& code, const std::string& joins) {
          ", a.exercise_id, a.level, a.hand, a.started_utc, a.seed, a.board, a.status, s.value, " + sql::kPassed +
          ", coalesce(s.grade, 'not graded'), a.organ_synthetic, a.exercise_version, a.ruleset_sha256, a.integrity,"
          " coalesce(s.passed, 0), coalesce(o.printed, ''), coalesce(o.utc, ''), a.cut_off, " +
-         sql::kEndedByDevice + ", " + sql::kBegun + " FROM attempt a" + joins +
+         sql::kEndedByDevice + ", " + sql::kBegun + ", " + sql::kSoftRealTime + " FROM attempt a" + joins +
          " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" + sql::decision();
 }
 
@@ -200,6 +200,7 @@ AttemptSummary summary_of(const sql::Statement& row) {
   summary.cut_off = row.integer(20) != 0;
   summary.ended_by_device = row.integer(21) != 0;
   summary.begun = row.integer(22) != 0;
+  summary.soft_real_time = row.integer(23) != 0;
   return summary;
 }
 

@@ -76,6 +76,7 @@ struct AttemptSummary {
   bool begun = true;                              ///< its clock had started; only of what has no number it may not
   bool passed_by_score = false;                   ///< what the score says, whatever was decided
   std::string decided_by = {}, decided_utc = {};  ///< of the newest decision, "" without one
+  bool soft_real_time = false;  ///< live on a device, and its loop was refused real-time priority (pacing.h)
 };
 
 /// Empty fields do not filter.

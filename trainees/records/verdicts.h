@@ -41,6 +41,9 @@ inline constexpr const char* kPassed =
 inline constexpr const char* kEndedByDevice =
     "(CASE a.status WHEN 'fault' THEN 1 WHEN 'void' THEN NOT EXISTS"
     " (SELECT 1 FROM event e WHERE e.attempt_id = a.id AND e.type = 'DEADMAN_OPEN') ELSE 0 END)";
+/// 1 where it was live on a device and the system refused its loop real-time priority: soft_real_time() of pacing.h.
+inline constexpr const char* kSoftRealTime =
+    "(instr(a.device_realtime, '\"refused\"') > 0 AND coalesce(a.device_backend, '') <> 'pointer')";
 /// 0 where its clock never started; looked up only for what has no number.
 inline constexpr const char* kBegun =
     "(CASE WHEN a.status IN ('fault', 'void') THEN EXISTS"

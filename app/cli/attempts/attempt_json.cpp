@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/scoring/metrics.h"
+#include "trainees/markup/pacing.h"
 
 namespace trocar {
 namespace {
@@ -103,7 +104,10 @@ Json device(const RunReport& run_report) {
   add_stiffness(json, run_report.stiffness);
   if (!run_report.force_sensor.empty()) json["force_sensor"] = Json::parse(run_report.force_sensor);
   if (!run_report.plant.empty()) json["plant"] = Json::parse(run_report.plant);
-  if (!run_report.realtime.empty()) json["realtime"] = Json::parse(run_report.realtime);
+  if (!run_report.realtime.empty()) {
+    json["realtime"] = Json::parse(run_report.realtime);
+    json["soft_real_time"] = !soft_real_time(run_report).empty();
+  }
   return json;
 }
 

@@ -26,6 +26,7 @@
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/make_hand.h"
 #include "scenarios/layout/board_numbers.h"
+#include "trainees/markup/pacing.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar {
@@ -108,6 +109,16 @@ void print_stiffness(const StiffnessReport& s, std::ostream& out) {
   out << std::setprecision(0) << "contact  up to " << s.asked_max_n_per_m << " N/m asked of the device, K_max "
       << s.k_max_min_n_per_m << " to " << s.k_max_max_n_per_m << " N/m, above it for " << 100 * s.above_share
       << " % of the contact time, clamp " << (s.clamped ? "on" : "off") << std::setprecision(1) << '\n';
+}
+
+/// The receipt of a live run's loop.
+void print_pace(const Pacing& pacing, std::ostream& out) {
+  const char* head = "pace     ";
+  for (const auto& [name, value] : pacing_facts(pacing)) {
+    out << head << std::left << std::setw(26) << name << std::right << value << '\n';
+    head = "         ";
+  }
+  out << head << std::left << std::setw(26) << "Ticks missed" << std::right << pacing.missed << '\n';
 }
 
 }  // namespace
@@ -217,12 +228,14 @@ void print_result(const AttemptResult& result, std::ostream& out) {
     out << *grade.score << "  (" << grade.grade << ")\n";
   else
     out << "none  (" << grade.grade << ")\n";
+  if (const std::string soft = soft_real_time(result.device); !soft.empty()) out << "mark     " << soft << '\n';
   for (const Subscore& s : grade.subscores) {
     out << "  " << std::left << std::setw(16) << s.name << std::right << std::setw(5) << 100 * s.value << " %  weight "
         << std::setw(4) << 100 * s.weight << " %" << (s.gate ? "  safety gate" : "") << '\n';
   }
   for (const Cap& cap : grade.caps) out << "cap      " << cap_sentence(cap) << '\n';
   print_stiffness(result.device.stiffness, out);
+  if (const std::optional<Pacing> pacing = parse_pacing(result.device.realtime)) print_pace(*pacing, out);
   if (!result.device.fault.empty()) out << "fault    " << result.device.fault << '\n';
   if (!result.integrity.empty()) out << "reason   " << result.integrity << '\n';
   for (const DeviceWarning& w : result.device.warnings) {

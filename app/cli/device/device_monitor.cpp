@@ -17,8 +17,11 @@
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/command.h"
 #include "app/session/interrupt.h"
+#include "app/session/lanes/real_time.h"
+#include "app/session/lanes/threaded_executor.h"
 #include "app/session/setup/device_files.h"
 #include "haptics/device/backends/make_backend.h"
+#include "haptics/exchange/latest.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/input_error.h"
 
@@ -32,26 +35,29 @@ constexpr double kCircle_m = 0.015, kTurnsHz = 0.25;
 constexpr int kDeviceFault = 4;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// The loop on a simulated device that a hand leads through free air.
+/// The loop on a simulated device that a hand leads through free air, or on a real one whose amplifiers stay off.
 class Bench {
  public:
   explicit Bench(const MonitorOptions& options)
-      : backend_(make_backend(kSimulatedBackend, {.simulated = device_of(options)})),
-        loop_(loop_of(options)),
-        patch_(std::make_unique<ContactPatch>()),
-        goal_(backend_.world->sense().X_BS),
-        centre_(goal_) {}
+      : backend_(make_backend(options.backend, {.simulated = device_of(options), .card = options.card})),
+        loop_(loop_of(options, backend_.daq->capabilities())),
+        patch_(std::make_unique<ContactPatch>()) {
+    if (backend_.world) centre_ = goal_ = backend_.world->sense().X_BS;
+  }
 
   const TickRecord& tick() {
-    lead();
+    if (backend_.world) lead();
     const DaqSample sample = backend_.daq->read();
-    const DacFrame out = loop_.tick(sample, *patch_, record_);
-    backend_.daq->arm(record_.amplifiers_armed);
-    backend_.daq->write(out);
+    DaqSample heard = sample;
+    if (!backend_.world) heard.digital_in &= ~std::uint32_t{kDeadman};
+    const DacFrame out = loop_.tick(heard, *patch_, record_);
+    record_.in.digital_in = sample.digital_in;
+    backend_.daq->arm(backend_.world && record_.amplifiers_armed);
+    backend_.daq->write(backend_.world ? out : DacFrame{});
     return record_;
   }
   const TickRecord& record() const { return record_; }
-  double time_s() const { return backend_.world->time_s(); }
+  Backend& backend() { return backend_; }
 
  private:
   static SimulatedDaqConfig device_of(const MonitorOptions& options) {
@@ -61,16 +67,17 @@ class Bench {
     for (const std::string& text : options.injections) config.faults.push_back(parse_injection(text));
     return config;
   }
-  static HapticLoopConfig loop_of(const MonitorOptions& options) {
+  static HapticLoopConfig loop_of(const MonitorOptions& options, const DaqCapabilities& daq) {
     HapticLoopConfig config;
-    config.daq.rate_hz = options.rate_hz;
+    config.daq = daq;
     config.device = device_model(read_device_files(options.calibration, options.device));
     return config;
   }
 
   void lead() {
-    if (time_s() < kInJigS) return;
-    const double turning_s = time_s() - kInJigS - kSoftStartS;
+    const double now_s = backend_.world->time_s();
+    if (now_s < kInJigS) return;
+    const double turning_s = now_s - kInJigS - kSoftStartS;
     if (turning_s > 0) {
       const double angle = 2 * std::numbers::pi * kTurnsHz * turning_s, grown = std::min(1.0, turning_s);
       goal_.p = centre_.p + grown * kCircle_m * Vec3(std::cos(angle) - 1, std::sin(angle), 0);
@@ -78,7 +85,7 @@ class Bench {
     backend_.world->set_hand_intent(goal_, 0.020);
   }
 
-  Backend backend_;
+  Backend backend_;  ///< its amplifiers go off with it
   HapticLoop loop_;
   std::unique_ptr<ContactPatch> patch_;
   TickRecord record_;
@@ -171,28 +178,93 @@ void print_block(const TickRecord& r, bool first, std::ostream& out) {
 
 }  // namespace
 
+namespace {
+
+void show(const MonitorOptions& options, const TickRecord& record, bool first, std::ostream& out) {
+  if (options.json)
+    out << to_json(record).dump() << '\n' << std::flush;
+  else if (options.terminal)
+    print_block(record, first, out);
+  else
+    print_line(record, out), out << std::flush;
+}
+
+class BenchTask final : public Task {
+ public:
+  BenchTask(Bench& bench, Latest<TickRecord>& newest) : bench_(bench), newest_(newest) {}
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t) override { newest_.write(bench_.tick()); }
+
+ private:
+  Bench& bench_;
+  Latest<TickRecord>& newest_;
+};
+
+class LinesTask final : public Task {
+ public:
+  LinesTask(const MonitorOptions& options, Latest<TickRecord>& newest, long lines, std::ostream& out)
+      : options_(options), newest_(newest), left_(lines), out_(out) {}
+  std::uint32_t period() const override { return static_cast<std::uint32_t>(options_.rate_hz / kLinesHz); }
+  void run(std::uint64_t tick) override {
+    if (tick == 0) return;  // the loop has only begun
+    show(options_, newest_.read(), tick == 1, out_);
+    --left_;
+  }
+  bool finished() const override { return left_ <= 0; }
+
+ private:
+  const MonitorOptions& options_;
+  Latest<TickRecord>& newest_;
+  long left_;
+  std::ostream& out_;
+};
+
+/// A device with a clock of its own: at its rate, as a run would be.
+int watch_device(const MonitorOptions& options, Bench& bench, long lines, std::ostream& out, std::ostream& err) {
+  constexpr int kLoopFifoPriority = 80;
+  const auto newest = std::make_unique<Latest<TickRecord>>();
+  BenchTask loop(bench, *newest);
+  LinesTask shown(options, *newest, lines, out);
+  ThreadedExecutor executor(options.rate_hz);
+  executor.add_lane("haptic", {&loop}, kLoopFifoPriority);
+  executor.pace_by(bench.backend().await_sync);
+  executor.pin(isolated_processor());
+  executor.add_own_lane("lines", {&shown});
+  executor.run(options.interrupted);
+  const LaneReport& report = *executor.reports().front();
+  err << "trocar: " << options.backend << " looked at for " << std::fixed << std::setprecision(1) << report.seconds
+      << " s at " << report.rate_hz() << " Hz, " << report.policy << ", " << report.missed
+      << " periods missed; its amplifiers stayed off\n";
+  return bench.record().stylus.fault ? kDeviceFault : 0;
+}
+
+}  // namespace
+
 int monitor(const MonitorOptions& options, std::ostream& out, std::ostream& err) {
   using Clock = std::chrono::steady_clock;
-  for (const std::string& doubt :
-       device_doubts(read_device_files(options.calibration, options.device), simulated_plant_words(options.seed))) {
-    err << "trocar: " << doubt << '\n';
-  }
+  const bool own_clock = !backend_abilities(options.backend).pace;
+  if (own_clock && options.lockstep)
+    throw InputError("--backend " + options.backend + ": runs by its own clock; leave --lockstep away");
+  if (own_clock && !options.injections.empty())
+    throw InputError("--backend " + options.backend + ": --inject is for simulated devices");
+  if (!own_clock)
+    for (const std::string& doubt :
+         device_doubts(read_device_files(options.calibration, options.device), simulated_plant_words(options.seed))) {
+      err << "trocar: " << doubt << '\n';
+    }
   Bench bench(options);
   const auto ticks_a_line = static_cast<int>(std::lround(options.rate_hz / kLinesHz));
   const auto lines = std::max<long>(1, std::lround(options.seconds * kLinesHz));
+  if (own_clock) return watch_device(options, bench, lines, out, err);
   auto due = Clock::now();
   for (long line = 0; line < lines && !(options.interrupted && options.interrupted()); ++line) {
     for (int k = 0; k < ticks_a_line; ++k) bench.tick();
     due += std::chrono::milliseconds(static_cast<int>(1e3 / kLinesHz));
     if (!options.lockstep) std::this_thread::sleep_until(due);
-    if (options.json)
-      out << to_json(bench.record()).dump() << '\n' << std::flush;
-    else if (options.terminal)
-      print_block(bench.record(), line == 0, out);
-    else
-      print_line(bench.record(), out), out << std::flush;
+    show(options, bench.record(), line == 0, out);
   }
-  err << "trocar: " << bench.time_s() << " s of the simulated device, seed " << options.seed << '\n';
+  err << "trocar: " << bench.backend().world->time_s() << " s of the simulated device behind " << options.backend
+      << ", seed " << options.seed << '\n';
   return bench.record().stylus.fault ? kDeviceFault : 0;
 }
 
@@ -210,6 +282,12 @@ void add_device_monitor(CLI::App& parent, CommandAction& chosen) {
   MonitorOptions& o = *given;
   CLI::App* monitor = add_command(parent, "monitor", "Live values of the device loop, ten times a second", chosen,
                                   [given] { return device_monitor(*given, std::cout, std::cerr); });
+  std::string backends;
+  for (const std::string& name : backend_names()) backends += (backends.empty() ? "" : ", ") + name;
+  monitor
+      ->add_option("--backend", o.backend, "Device that is looked at, a real one with its amplifiers off: " + backends)
+      ->capture_default_str();
+  monitor->add_option("--card", o.card, kCardForms);
   monitor->add_option("--seconds", o.seconds, "Until it ends by itself")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 86400.0));

@@ -1,7 +1,9 @@
 #include "app/cli/machine/doctor_command.h"
 
-#include <pthread.h>
-#include <sched.h>
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/timex.h>
 #include <sys/utsname.h>
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -24,6 +27,7 @@
 
 #include "app/cli/command.h"
 #include "app/picture/gl/headless_context.h"
+#include "app/session/lanes/real_time.h"
 #include "app/session/setup/scene.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
@@ -41,7 +45,7 @@ constexpr double kBudgetMiBPerMinute = 0.6;  // a recording's budget: what free 
 constexpr double kLeastFreeMiB = 100;        // an hour of recordings and the database with room to spare
 constexpr int kLoopPriority = 80;            // SCHED_FIFO priority that a live loop asks for
 
-enum class State : std::uint8_t { kGood, kNote, kMissing };
+enum class State : std::uint8_t { kGood, kWarning, kProblem };
 
 struct Finding {
   const char* name;
@@ -53,20 +57,20 @@ const char* state_name(State state) {
   switch (state) {
     case State::kGood:
       return "ok";
-    case State::kNote:
-      return "note";
-    case State::kMissing:
-      return "missing";
+    case State::kWarning:
+      return "warning";
+    case State::kProblem:
+      return "problem";
   }
   return "";
 }
 
-/// The text that `look` gives, or what it throws as missing.
+/// The text that `look` gives, or what it throws as a problem.
 Finding needed(const char* name, const std::function<std::string()>& look) {
   try {
     return {name, State::kGood, look()};
   } catch (const std::exception& error) {
-    return {name, State::kMissing, error.what()};
+    return {name, State::kProblem, error.what()};
   }
 }
 
@@ -81,10 +85,6 @@ std::string assets() {
   const AssetRoots roots = find_assets();
   return roots.assets.string() + ", " + std::to_string(list_exercises(roots.exercises).size()) + " exercises in " +
          roots.exercises.string();
-}
-
-fs::path database_file(const DoctorOptions& options) {
-  return options.database.empty() ? default_database_path() : fs::absolute(options.database);
 }
 
 std::string database(const fs::path& file) {
@@ -102,22 +102,15 @@ Finding disk_room(const fs::path& file) {
   std::error_code error;
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
   const fs::space_info space = fs::space(folder, error);
-  if (error) return {"disk", State::kMissing, folder.string() + ": " + error.message()};
-  if (access(folder.c_str(), W_OK) != 0) return {"disk", State::kMissing, folder.string() + ": is not writable"};
+  if (error) return {"disk", State::kProblem, folder.string() + ": " + error.message()};
+  if (access(folder.c_str(), W_OK) != 0)
+    return {"disk", State::kProblem,
+            folder.string() + ": is not writable; give another place by --db FILE or XDG_DATA_HOME"};
   const double free = static_cast<double>(space.available) / kMiB;
   const auto minutes = static_cast<long long>(free / kBudgetMiBPerMinute);
-  return {"disk", free < kLeastFreeMiB ? State::kMissing : State::kGood,
+  return {"disk", free < kLeastFreeMiB ? State::kProblem : State::kGood,
           std::to_string(static_cast<long long>(free)) + " MiB free in " + folder.string() + ", about " +
               std::to_string(minutes / 60) + " h of recordings"};
-}
-
-Finding limit(const char* name, int resource, double wanted, const std::string& meaning) {
-  rlimit now{};
-  getrlimit(static_cast<__rlimit_resource>(resource), &now);
-  const bool endless = now.rlim_cur == RLIM_INFINITY;
-  const bool enough = endless || static_cast<double>(now.rlim_cur) >= wanted || geteuid() == 0;
-  const std::string value = endless ? "unlimited" : std::to_string(now.rlim_cur);
-  return {name, enough ? State::kGood : State::kNote, value + (enough ? "" : ": " + meaning)};
 }
 
 std::string first_line(const fs::path& file) {
@@ -127,33 +120,78 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
+/// The kernel and its rights are the host's: what is missing is asked for where the container is started.
+bool in_container() {
+  std::error_code error;
+  const char* named = std::getenv("container");
+  return (named && *named) || fs::exists("/.dockerenv", error) || fs::exists("/run/.containerenv", error) ||
+         !first_line("/run/systemd/container").empty();
+}
+
+/// Whether this process has a capability of Linux. @param number of capabilities(7)
+bool capable(unsigned number) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::string mask; word == "CapEff:" && status >> mask)
+      return (std::strtoull(mask.c_str(), nullptr, 16) >> number & 1) != 0;
+  return false;
+}
+
 Finding kernel() {
   utsname name = {};
   uname(&name);
   const std::string text = std::string(name.sysname) + " " + name.release;
   if (first_line("/sys/kernel/realtime") == "1") return {"kernel", State::kGood, text + ", real-time"};
-  return {"kernel", State::kNote, text + ": not a real-time kernel; for a device: apt install linux-image-rt-amd64"};
+  return {"kernel", State::kWarning,
+          text + (in_container() ? ": not a real-time kernel; it is the host's: a device wants one there"
+                                 : ": not a real-time kernel; for a device: apt install linux-image-rt-amd64")};
+}
+
+/// How a process comes to the rights of a live loop, said once.
+std::string way_to_rights() {
+  if (in_container())
+    return "start the container with --cap-add=SYS_NICE --cap-add=IPC_LOCK --ulimit rtprio=" +
+           std::to_string(kLoopPriority) + " --ulimit memlock=-1";
+  if (geteuid() == 0)
+    return "this is root without CAP_SYS_NICE and CAP_IPC_LOCK: whoever started it took them away (systemd: "
+           "CapabilityBoundingSet=)";
+  return "put \"@realtime - rtprio " + std::to_string(kLoopPriority) +
+         "\" and \"@realtime - memlock unlimited\" into /etc/security/limits.d/trocar.conf, then sudo groupadd -f "
+         "realtime, sudo usermod -aG realtime $USER, and log in anew";
 }
 
 /// Whether a thread here really gets what a live loop asks for.
 Finding real_time() {
   bool got = false;
-  std::thread([&got] {
-    const sched_param wanted = {.sched_priority = kLoopPriority};
-    got = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted) == 0;
-  }).join();
+  std::thread([&got] { got = become_real_time(kLoopPriority).empty(); }).join();
   if (got) return {"real-time", State::kGood, "a thread gets SCHED_FIFO " + std::to_string(kLoopPriority)};
-  return {"real-time", State::kNote,
-          "a thread does not get SCHED_FIFO: put \"@realtime - rtprio " + std::to_string(kLoopPriority) +
-              "\" and \"@realtime - memlock unlimited\" into /etc/security/limits.d/trocar.conf, then sudo groupadd -f "
-              "realtime, sudo usermod -aG realtime $USER, and log in anew"};
+  rlimit limit{};
+  getrlimit(RLIMIT_RTPRIO, &limit);
+  return {"real-time", State::kWarning,
+          "a thread does not get SCHED_FIFO " + std::to_string(kLoopPriority) + " (limit rtprio " +
+              std::to_string(limit.rlim_cur) +
+              "), scores of a device would be marked as soft real time: " + way_to_rights()};
+}
+
+Finding locked_memory() {
+  constexpr unsigned kIpcLock = 14;
+  constexpr double kLeastMiB = 256;
+  if (capable(kIpcLock)) return {"memlock", State::kGood, "all memory may be locked"};
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur == RLIM_INFINITY) return {"memlock", State::kGood, "unlimited"};
+  const double mib = static_cast<double>(limit.rlim_cur) / kMiB;
+  const std::string text = std::to_string(std::lround(mib)) + " MiB";
+  if (mib >= kLeastMiB) return {"memlock", State::kGood, text};
+  return {"memlock", State::kWarning,
+          text + ": a live loop could not lock its memory and may wait for a page: as for real-time"};
 }
 
 Finding governor() {
   const std::string now = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   if (now.empty()) return {"governor", State::kGood, "the processors' clock is not this system's to set"};
   if (now == "performance") return {"governor", State::kGood, now};
-  return {"governor", State::kNote,
+  return {"governor", State::kWarning,
           now + ": the clock sinks when it is idle; for a device: sudo cpupower frequency-set -g performance"};
 }
 
@@ -161,7 +199,7 @@ Finding display() {
   const char *x = std::getenv("DISPLAY"), *wayland = std::getenv("WAYLAND_DISPLAY");
   if (wayland && *wayland) return {"display", State::kGood, std::string("Wayland ") + wayland};
   if (x && *x) return {"display", State::kGood, std::string("X ") + x};
-  return {"display", State::kNote, "none: no window; trocar demo --headless, run and review work without"};
+  return {"display", State::kWarning, "none: no window; trocar demo --headless, run and review work without"};
 }
 
 Finding locale() {
@@ -170,18 +208,19 @@ Finding locale() {
     if (!value || !*value) continue;
     const std::string text = value;
     const bool utf8 = text.find("UTF-8") != std::string::npos || text.find("utf8") != std::string::npos;
-    return {"locale", utf8 ? State::kGood : State::kNote,
+    return {"locale", utf8 ? State::kGood : State::kWarning,
             std::string(variable) + "=" + text +
                 (utf8 ? "" : ": not UTF-8; names of people and files are written as UTF-8 all the same")};
   }
-  return {"locale", State::kNote, "none is set: the window speaks English; names are written as UTF-8"};
+  return {"locale", State::kWarning, "none is set: the window speaks English; names are written as UTF-8"};
 }
 
 Finding clock_state() {
   timex now = {};
   if (adjtimex(&now) != TIME_ERROR) return {"clock", State::kGood, "set by a time server"};
-  return {"clock", State::kNote,
-          "nobody sets it: times in the record are this machine's own; sudo timedatectl set-ntp true"};
+  return {"clock", State::kWarning,
+          std::string("nobody sets it: times in the record are this machine's own; ") +
+              (in_container() ? "on the host: " : "") + "sudo timedatectl set-ntp true"};
 }
 
 /// Files of a folder whose names begin so, with whether they may be used.
@@ -201,7 +240,7 @@ Finding serial_lines() {
   bool closed = false;
   const std::string found = devices("/dev", "ttyUSB", closed);
   if (found.empty()) return {"serial", State::kGood, "no USB serial line; a force sensor may be on one"};
-  return {"serial", closed ? State::kNote : State::kGood,
+  return {"serial", closed ? State::kWarning : State::kGood,
           found + (closed ? ": sudo usermod -aG dialout $USER, and log in anew" : "")};
 }
 
@@ -210,8 +249,32 @@ Finding boards() {
   const std::string found = devices("/dev", "uio", closed);
   if (found.empty())
     return {"boards", State::kGood, "no /dev/uio: no board is bound to it; docs/real_hardware.md says how"};
-  return {"boards", closed ? State::kNote : State::kGood,
+  return {"boards", closed ? State::kWarning : State::kGood,
           found + (closed ? ": a udev rule must give them to your group (docs/real_hardware.md)" : "")};
+}
+
+/// Whether one of this machine's networks is the one that a card is on.
+Finding card_network(const std::string& given) {
+  const std::string card = given.empty() ? Hostmot2Options{}.card : given;
+  const std::string address = card.substr(0, card.find(':'));
+  in_addr wanted{};
+  if (::inet_pton(AF_INET, address.c_str(), &wanted) != 1) return {"network", State::kProblem, card + ": no address"};
+  ifaddrs* all = nullptr;
+  if (::getifaddrs(&all) != 0) return {"network", State::kWarning, "this machine's networks cannot be listed"};
+  std::string there;
+  for (const ifaddrs* one = all; one; one = one->ifa_next) {
+    if (!one->ifa_addr || !one->ifa_netmask || one->ifa_addr->sa_family != AF_INET) continue;
+    const in_addr own = reinterpret_cast<const sockaddr_in*>(one->ifa_addr)->sin_addr,
+                  mask = reinterpret_cast<const sockaddr_in*>(one->ifa_netmask)->sin_addr;
+    if ((own.s_addr & mask.s_addr) == (wanted.s_addr & mask.s_addr) && mask.s_addr != 0)
+      there = std::string(one->ifa_name) + ((one->ifa_flags & IFF_RUNNING) != 0U ? "" : ", whose cable is out");
+  }
+  ::freeifaddrs(all);
+  if (!there.empty()) return {"network", State::kGood, address + ", where a Mesa card would be, lies on " + there};
+  return {"network", given.empty() ? State::kGood : State::kWarning,
+          "none leads to " + address +
+              ", where a Mesa card would be: for one, give a port of its own an address beside " +
+              "it (docs/real_hardware.md)"};
 }
 
 std::string card_words(const std::string& address) {
@@ -229,25 +292,32 @@ std::string sensor_words(const std::string& words) {
 }
 
 std::vector<Finding> findings(const DoctorOptions& options) {
-  const fs::path file = database_file(options);
+  fs::path file;
+  std::string no_file;
+  try {
+    file = options.database.empty() ? default_database_path() : fs::absolute(options.database);
+  } catch (const std::exception& error) {
+    no_file = error.what();
+  }
   std::vector<Finding> found{
       {"version", State::kGood,
        "trocar " TROCAR_VERSION ", database schema " + std::to_string(shipped_migrations().back().version)},
       {"processors", State::kGood, std::to_string(std::thread::hardware_concurrency())},
       needed("assets", assets),
       needed("picture", picture),
-      needed("database", [&] { return database(file); }),
-      disk_room(file),
-      limit("rtprio", RLIMIT_RTPRIO, kLoopPriority, "a live loop would run without real-time priority"),
-      limit("memlock", RLIMIT_MEMLOCK, 256 * kMiB, "a live loop could not lock its memory"),
+      no_file.empty() ? needed("database", [&] { return database(file); })
+                      : Finding{"database", State::kProblem, no_file},
       kernel(),
       real_time(),
+      locked_memory(),
       governor(),
       display(),
       locale(),
       clock_state(),
       serial_lines(),
-      boards()};
+      boards(),
+      card_network(options.card)};
+  if (no_file.empty()) found.push_back(disk_room(file));
   if (!options.card.empty()) found.push_back(needed("card", [&] { return card_words(options.card); }));
   if (!options.sensor.empty()) found.push_back(needed("sensor", [&] { return sensor_words(options.sensor); }));
   return found;
@@ -258,7 +328,7 @@ std::vector<Finding> findings(const DoctorOptions& options) {
 int doctor_command(const DoctorOptions& options, std::ostream& out, std::ostream&) {
   const std::vector<Finding> found = findings(options);
   const bool sound =
-      std::none_of(found.begin(), found.end(), [](const Finding& f) { return f.state == State::kMissing; });
+      std::none_of(found.begin(), found.end(), [](const Finding& f) { return f.state == State::kProblem; });
   if (options.json) {
     nlohmann::ordered_json json = {{"sound", sound}};
     for (const Finding& finding : found) {

@@ -14,8 +14,9 @@ struct DoctorOptions {
 };
 
 /// Looks only: no database is made, migrated or repaired.
-/// @return 0 when everything that a run needs is there, 3 when something is missing. Limits that only a live run with a
-/// device would like (real-time priority, locked memory) are said, not asked for.
+/// Each finding is ok, a warning or a problem, and says what to do.
+/// @return 0 when everything that a run needs is there, 3 with a problem. What only a live run with a device would like
+/// (real-time priority, locked memory, a real-time kernel) is a warning.
 int doctor_command(const DoctorOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

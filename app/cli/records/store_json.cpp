@@ -31,6 +31,7 @@ Json json_of(const AttemptSummary& attempt) {
           {"passed", attempt.passed},
           {"passed_by_score", attempt.passed_by_score},
           {"decided_by", decided ? Json(attempt.decided_by) : Json(nullptr)},
+          {"soft_real_time", attempt.soft_real_time},
           {"decided_utc", decided ? Json(attempt.decided_utc) : Json(nullptr)},
           {"grade", attempt.grade},
           {"integrity", attempt.integrity.empty() ? Json(nullptr) : Json(attempt.integrity)},

@@ -21,7 +21,8 @@ using Side = TextTable::Align;
 
 /// "yes" or "no" as it counts; with who decided it where somebody did.
 std::string verdict_cell(const AttemptSummary& attempt) {
-  return std::string(attempt.passed ? "yes" : "no") + (attempt.decided_by.empty() ? "" : ", by " + attempt.decided_by);
+  return std::string(attempt.passed ? "yes" : "no") + (attempt.decided_by.empty() ? "" : ", by " + attempt.decided_by) +
+         (attempt.soft_real_time ? ", soft real time" : "");
 }
 
 void print_attempts(const std::vector<AttemptSummary>& attempts, std::ostream& out) {

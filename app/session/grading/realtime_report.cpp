@@ -1,6 +1,11 @@
 #include "app/session/grading/realtime_report.h"
 
+#include <sys/utsname.h>
+
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -12,36 +17,82 @@ namespace {
 using RunReportJson = nlohmann::ordered_json;
 
 RunReportJson distribution(const DurationCounts& counts) {
-  return {{"p50", counts.percentile_us(0.5)},
-          {"p99", counts.percentile_us(0.99)},
-          {"p99.9", counts.percentile_us(0.999)},
-          {"p99.99", counts.percentile_us(0.9999)},
-          {"max", static_cast<double>(counts.max_ns()) * 1e-3},
+  return {{"p50", counts.percentile_us(0.5)},       {"p90", counts.percentile_us(0.9)},
+          {"p99", counts.percentile_us(0.99)},      {"p99.9", counts.percentile_us(0.999)},
+          {"p99.99", counts.percentile_us(0.9999)}, {"max", static_cast<double>(counts.max_ns()) * 1e-3},
           {"above_1ms", counts.above_us(1000)}};
 }
 
 RunReportJson lane(const LaneReport& report) {
   RunReportJson json = {{"policy", report.policy}};
   if (!report.refusal.empty()) json["refused"] = report.refusal;
-  json["rate_hz"] = report.seconds > 0 ? static_cast<double>(report.wakes + report.missed) / report.seconds : 0.0;
+  if (report.processor >= 0) json["processor"] = report.processor;
+  json["rate_hz"] = report.rate_hz();
   json["wakes"] = report.wakes;
   json["missed"] = report.missed;
   json["overruns"] = report.overruns;
   json["longest_gap_ms"] = static_cast<double>(report.longest_gap_ns) * 1e-6;
   json["late_us"] = distribution(report.late);
+  json["period_us"] = distribution(report.period);
   json["cpu_us"] = distribution(report.cpu);
   return json;
 }
 
+/// Lower end of the histogram's bin that holds a duration.
+std::int64_t lower_end(std::int64_t us) {
+  constexpr std::array<std::int64_t, 6> kBinSteps{10, 15, 20, 30, 50, 70};  // of a decade
+  if (us < 10) return us >= 7 ? 7 : us >= 5 ? 5 : std::min<std::int64_t>(us, 3);
+  std::int64_t decade = 1, lower = 10;
+  while (us >= 100 * decade) decade *= 10;
+  for (const std::int64_t step : kBinSteps)
+    if (us >= step * decade) lower = step * decade;
+  return lower;
+}
+
+RunReportJson bins_json(const std::map<std::int64_t, std::uint64_t>& bins) {
+  RunReportJson json = RunReportJson::object();
+  for (const auto& [lower, count] : bins) json[std::to_string(lower)] = count;
+  return json;
+}
+
+std::string kernel_release() {
+  utsname name = {};
+  return ::uname(&name) == 0 ? std::string(name.sysname) + " " + name.release : "";
+}
+
+double load_of_last_minute() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 ? load : 0;
+}
+
 }  // namespace
+
+std::map<std::int64_t, std::uint64_t> histogram(const DurationCounts& counts, std::int64_t nominal_us) {
+  std::map<std::int64_t, std::uint64_t> out;
+  counts.each([&](std::int64_t lower_us, std::uint64_t count) {
+    const std::int64_t off = lower_us - nominal_us;
+    out[off < 0 ? -lower_end(-off) : lower_end(off)] += count;
+  });
+  return out;
+}
 
 std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost,
                           const std::optional<WitnessedTime>& witnessed) {
-  RunReportJson json = {{"kernel_realtime", real_time_kernel()},
+  RunReportJson json = {{"kernel", kernel_release()},
+                        {"kernel_realtime", real_time_kernel()},
+                        {"processors", std::thread::hardware_concurrency()},
+                        {"load", load_of_last_minute()},
                         {"memory_locked", executor.memory_locked()},
                         {"lost_records", lost},
                         {"lanes", RunReportJson::object()}};
   for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);
+  if (!executor.reports().empty()) {
+    const LaneReport& loop = *executor.reports().front();
+    RunReportJson& told = json["lanes"][loop.name];
+    told["late_us"]["bins"] = bins_json(histogram(loop.late));
+    told["period_us"]["off_bins"] = bins_json(histogram(loop.period, loop.period_us));
+    told["cpu_us"]["bins"] = bins_json(histogram(loop.cpu));
+  }
   for (const ThreadedExecutor::Pause& pause : executor.pauses())
     json["pauses"].push_back({{"at_s", pause.at_s}, {"seconds", pause.seconds}});
   if (witnessed)

@@ -1,15 +1,18 @@
 // What a run says of its sensor, and a live one of its pacing: in the result under device.force_sensor and
 // device.realtime, and in words on stderr where something is missing.
 //
-// {"kernel_realtime", "memory_locked", "lost_records", "lanes": {NAME: {"policy", "rate_hz", "wakes", "missed",
-// "overruns",
-//  "longest_gap_ms", "late_us": {"p50","p99","p99.9","p99.99","max","above_1ms"}, "cpu_us": {...}}}, and only where the
-//  run
-// stood still "pauses": [{"at_s", "seconds"}]; "clocks": {"program_s", "kernel_s", "worst", "slept_s"}}. Thread: any,
-// after the run.
+// {"kernel", "kernel_realtime", "processors", "load", "memory_locked", "lost_records", "lanes": {NAME: {"policy",
+// "refused", "processor", "rate_hz", "wakes", "missed", "overruns", "longest_gap_ms", "late_us":
+// {"p50","p90","p99","p99.9","p99.99","max","above_1ms"}, "period_us": {...}, "cpu_us": {...}}}, and only where the run
+// stood still "pauses": [{"at_s", "seconds"}]; "clocks": {"program_s", "kernel_s", "worst", "slept_s"}}. "refused" and
+// "processor" stand only where something was refused, or the lane was kept on one. The first lane, the loop's, has
+// histograms too: "bins" in late_us and cpu_us, {lower end in us: how many}, each up to the next of 0, 1, 2, 3, 5, 7,
+// 10, 15, 20, 30 ...; in period_us likewise by what the period was off, shorter ones with a minus ("off_bins"). "load"
+// is that of the last minute. Thread: any, after the run.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +25,8 @@
 namespace trocar {
 
 /// @param lost records that found a ring full. @param witnessed empty: no second clock could be read.
+/// How many by the lower end of their bin, whole us, as above. @param nominal_us taken off first.
+std::map<std::int64_t, std::uint64_t> histogram(const DurationCounts& counts, std::int64_t nominal_us = 0);
 std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost,
                           const std::optional<WitnessedTime>& witnessed);
 /// Why a live run is no measurement: clocks that do not agree (clock_witness.h), more than kMostPauses pauses while its

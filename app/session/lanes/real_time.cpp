@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <fstream>
 #include <system_error>
 
@@ -60,6 +61,44 @@ std::string become_real_time(int priority) {
   param.sched_priority = priority;
   const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &param);
   return error == 0 ? "" : reason(error);
+}
+
+std::string thread_policy() {
+  int policy = 0;
+  sched_param param{};
+  if (const int error = ::pthread_getschedparam(::pthread_self(), &policy, &param); error != 0) return reason(error);
+  switch (policy & ~SCHED_RESET_ON_FORK) {
+    case SCHED_FIFO:
+      return "SCHED_FIFO " + std::to_string(param.sched_priority);
+    case SCHED_RR:
+      return "SCHED_RR " + std::to_string(param.sched_priority);
+    case SCHED_OTHER:
+      return "SCHED_OTHER";
+    default:
+      return "policy " + std::to_string(policy);
+  }
+}
+
+std::string stay_on(int processor) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  if (processor < 0 || processor >= CPU_SETSIZE) return reason(EINVAL);
+  CPU_SET(static_cast<std::size_t>(processor), &only);
+  const int error = ::pthread_setaffinity_np(::pthread_self(), sizeof only, &only);
+  return error == 0 ? "" : reason(error);
+}
+
+int first_processor(const std::string& list) {
+  int first = -1;
+  const auto [end, error] = std::from_chars(list.data(), list.data() + list.size(), first);
+  return error == std::errc{} && end != list.data() ? first : -1;
+}
+
+int isolated_processor() {
+  std::ifstream file("/sys/devices/system/cpu/isolated");
+  std::string list;
+  std::getline(file, list);
+  return first_processor(list);
 }
 
 bool real_time_kernel() {

@@ -39,6 +39,16 @@ class MemoryLock {
 /// @return why SCHED_FIFO was refused; empty when it was given or not asked.
 std::string become_real_time(int priority);
 
+/// What the calling thread really has: "SCHED_FIFO 80", "SCHED_OTHER", ...
+std::string thread_policy();
+
+/// The calling thread runs on that processor and no other. @return why not; empty when it does.
+std::string stay_on(int processor);
+/// First of a list as the kernel writes it ("2-3,6"); -1: none.
+int first_processor(const std::string& list);
+/// A processor that was kept free for such threads (isolcpus=); -1: none.
+int isolated_processor();
+
 /// Whether the kernel says that it is preemptible throughout (PREEMPT_RT).
 bool real_time_kernel();
 

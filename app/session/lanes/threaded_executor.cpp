@@ -15,7 +15,8 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kWatchPeriod = 20'000'000;  // ns: how often an idle calling thread looks for the end
 constexpr std::int64_t kPauseLook = 2'000'000;     // ns: how soon a lane sees that a pause is over
-constexpr std::int64_t kSettle = 5'000'000;        // ns for the threads to be there before the first period
+constexpr std::int64_t kReadyLook = 200'000;       // ns: how soon a beginning is seen
+constexpr std::int64_t kSettle = 5'000'000;        // ns from there to the first period
 
 std::int64_t now_ns(clockid_t clock) {
   timespec now;
@@ -38,6 +39,8 @@ struct ThreadedExecutor::Lane {
   std::int64_t wished_ns = 0, last_ns = 0;  // next wake, and when the one before was
   std::int64_t stood_ns = 0;                // pauses that the wished times have been moved by
   std::function<bool()> answers;            // of the board that its tasks read; empty: always there
+  std::function<bool()> board;              // waits for the board's clock; empty: there is none
+  int processor = -1;
   LaneReport report;
   std::thread thread;
   std::exception_ptr thrown;
@@ -53,10 +56,14 @@ void ThreadedExecutor::add_lane(const std::string& name, std::vector<Task*> task
   lane->period_ns = std::llround(lane->tasks.front()->period() / rate_hz_ * 1e9);
   lane->offset_ns = std::llround(offset / rate_hz_ * 1e9);
   lane->report.name = name;
+  lane->report.period_us = std::llround(static_cast<double>(lane->period_ns) * 1e-3);
   lanes_.push_back(std::move(lane));
 }
 
 void ThreadedExecutor::await(std::function<bool()> answers) { lanes_.back()->answers = std::move(answers); }
+
+void ThreadedExecutor::pace_by(std::function<bool()> board) { lanes_.back()->board = std::move(board); }
+void ThreadedExecutor::pin(int processor) { lanes_.back()->processor = processor; }
 
 void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> tasks) {
   add_lane(name, std::move(tasks), 0);
@@ -66,10 +73,16 @@ void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> 
 void ThreadedExecutor::run(const std::function<bool()>& interrupted) {
   const MemoryLock lock;
   lock_refusal_ = lock.refusal();
-  start_ns_ = now_ns(CLOCK_MONOTONIC) + kSettle;
+  std::size_t threads = 0;
   for (auto& lane : lanes_) {
-    if (lane.get() != own_) lane->thread = std::thread([this, &lane = *lane] { work(lane); });
+    if (lane.get() == own_) continue;
+    lane->thread = std::thread([this, &lane = *lane] { work(lane); });
+    ++threads;
   }
+  // On a busy machine a new thread may wait long for its first turn: no period is missed before all have had it.
+  while (ready_.load() < threads && !stop_.load()) sleep_until(now_ns(CLOCK_MONOTONIC) + kReadyLook);
+  start_ns_ = now_ns(CLOCK_MONOTONIC) + kSettle;
+  begun_.store(true);
   if (own_) {
     try {
       pace(*own_, interrupted);
@@ -104,8 +117,9 @@ void ThreadedExecutor::join() {
 void ThreadedExecutor::work(Lane& lane) noexcept {
   try {
     lane.report.refusal = become_real_time(lane.priority);
-    const bool given = lane.priority > 0 && lane.report.refusal.empty();
-    lane.report.policy = given ? "SCHED_FIFO " + std::to_string(lane.priority) : "SCHED_OTHER";
+    if (lane.processor >= 0 && stay_on(lane.processor).empty()) lane.report.processor = lane.processor;
+    ready_.fetch_add(1);
+    while (!begun_.load() && !stop_.load()) sleep_until(now_ns(CLOCK_MONOTONIC) + kReadyLook);
     pace(lane, {});
   } catch (...) {
     lane.thrown = std::current_exception();
@@ -137,17 +151,23 @@ bool ThreadedExecutor::stood_still(Lane& lane, const std::function<bool()>& inte
 void ThreadedExecutor::pace(Lane& lane, const std::function<bool()>& interrupted) {
   const FlushDenormals flush;
   LaneReport& report = lane.report;
-  if (report.policy.empty()) report.policy = "SCHED_OTHER";
+  report.policy = thread_policy();
   lane.wished_ns = start_ns_ + lane.offset_ns;
   lane.last_ns = lane.wished_ns - lane.period_ns;
   for (; !stop_.load(std::memory_order_relaxed); lane.wished_ns += lane.period_ns) {
-    do sleep_until(lane.wished_ns);
-    while (stood_still(lane, interrupted));
+    bool by_board = false;
+    do {
+      by_board = lane.board && lane.board();
+      if (!by_board) sleep_until(lane.wished_ns);
+    } while (stood_still(lane, interrupted));
     if (stop_.load(std::memory_order_relaxed)) break;
     const std::int64_t woken = now_ns(CLOCK_MONOTONIC);
     report.late.add(woken - lane.wished_ns);
+    const bool first = report.wakes == 0;
+    report.awake_s += 1e-9 * static_cast<double>(woken - (first ? std::min(woken, lane.wished_ns) : lane.last_ns));
+    if (!first) report.period.add(woken - lane.last_ns);
     const std::int64_t missed = std::max<std::int64_t>(0, (woken - lane.wished_ns) / lane.period_ns);
-    lane.wished_ns += missed * lane.period_ns;
+    lane.wished_ns = by_board ? woken : lane.wished_ns + missed * lane.period_ns;
     report.missed += static_cast<std::uint64_t>(missed);
     report.longest_gap_ns = std::max(report.longest_gap_ns, woken - lane.last_ns);
     lane.last_ns = woken;

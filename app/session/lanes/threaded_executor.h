@@ -22,16 +22,22 @@
 
 namespace trocar {
 
-/// What one lane did. Latency: wake after the wished time; cpu: of all its tasks in one wake.
+/// What one lane did. Late: wake after the wished time; period: from wake to wake; cpu: of all its tasks in one wake.
 struct LaneReport {
   std::string name;
-  std::string policy;                   ///< "SCHED_FIFO 80" or "SCHED_OTHER"
+  std::string policy;                   ///< that its thread really had: "SCHED_FIFO 80", "SCHED_OTHER"
   std::string refusal;                  ///< why the policy asked for was not given, else empty
+  int processor = -1;                   ///< the only one that it may run on; -1: any
+  std::int64_t period_us = 0;           ///< asked for
   std::uint64_t wakes = 0, missed = 0;  ///< calls, and periods that passed without one
   std::uint64_t overruns = 0;           ///< wakes whose tasks were still at work when the next period began
   double seconds = 0;                   ///< from the first wish to the end, pauses aside
-  DurationCounts late, cpu;
+  double awake_s = 0;                   ///< from the first wish to the last wake, pauses aside
+  DurationCounts late, period, cpu;
   std::int64_t longest_gap_ns = 0;  ///< between two wakes
+
+  /// Wakes a second, as they really came: what was missed is not among them. 0 with fewer than two.
+  double rate_hz() const { return awake_s > 0 ? static_cast<double>(wakes - 1) / awake_s : 0; }
 };
 
 class ThreadedExecutor {
@@ -48,6 +54,11 @@ class ThreadedExecutor {
   /// The last lane added asks this before each wake: while it says no, all lanes stand still, as in a pause. It must
   /// not wait.
   void await(std::function<bool()> answers);
+  /// The last lane added wakes when this returns true, which is when its board's own clock says so; false: there is no
+  /// such clock, the lane sleeps as the others. Lateness is then against the wake before.
+  void pace_by(std::function<bool()> board);
+  /// The last lane added runs on that processor only. @param processor -1: on any.
+  void pin(int processor);
   /// A lane in the thread that calls run().
   void add_own_lane(const std::string& name, std::vector<Task*> tasks);
 
@@ -76,7 +87,8 @@ class ThreadedExecutor {
   PauseSwitch* pause_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   Lane* own_ = nullptr;
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, begun_{false};
+  std::atomic<std::size_t> ready_{0};  ///< threads that have what they asked for
   std::int64_t start_ns_ = 0;
   std::string lock_refusal_;
 };

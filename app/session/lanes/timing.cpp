@@ -6,17 +6,24 @@
 namespace trocar {
 namespace {
 
-constexpr std::int64_t kFineNs = 1'000, kCoarseNs = 100'000, kFineEndNs = 1'000'000;
+constexpr std::int64_t kFineNs = 1'000, kCoarseNs = 100'000, kFineEndNs = 4'000'000;
 
 }  // namespace
 
-void DurationCounts::add(std::int64_t ns) noexcept {
+void DurationCounts::add(std::int64_t ns, std::uint32_t times) noexcept {
   ns = std::max<std::int64_t>(0, ns);
   const auto bin = ns < kFineEndNs ? static_cast<std::size_t>(ns / kFineNs)
                                    : kFine + static_cast<std::size_t>((ns - kFineEndNs) / kCoarseNs);
-  ++bins_[std::min(bin, bins_.size() - 1)];
-  ++count_;
+  if (times == 0) return;
+  bins_[std::min(bin, bins_.size() - 1)] += times;
+  count_ += times;
   max_ns_ = std::max(max_ns_, ns);
+}
+
+void DurationCounts::add(const DurationCounts& others) noexcept {
+  for (std::size_t bin = 0; bin < bins_.size(); ++bin) bins_[bin] += others.bins_[bin];
+  count_ += others.count_;
+  max_ns_ = std::max(max_ns_, others.max_ns_);
 }
 
 double DurationCounts::percentile_us(double share) const {
@@ -31,6 +38,13 @@ double DurationCounts::percentile_us(double share) const {
     return std::min(longest_us, static_cast<double>(end_ns) * 1e-3);
   }
   return longest_us;
+}
+
+void DurationCounts::each(const std::function<void(std::int64_t, std::uint64_t)>& tell) const {
+  for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
+    const auto b = static_cast<std::int64_t>(bin), fine = static_cast<std::int64_t>(kFine);
+    if (bins_[bin] > 0) tell(b < fine ? b : (kFineEndNs + (b - fine) * kCoarseNs) / kFineNs, bins_[bin]);
+  }
 }
 
 std::uint64_t DurationCounts::above_us(std::int64_t limit) const {

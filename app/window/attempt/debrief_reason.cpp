@@ -7,6 +7,7 @@
 #include "app/window/attempt/metric_words.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/event_types.h"
+#include "trainees/markup/pacing.h"
 
 namespace trocar {
 namespace {
@@ -279,6 +280,8 @@ std::vector<std::string> further_words(const Translator& words, const AttemptRes
         words("The device could not give the force in {0} % of the contact time: this attempt does not count for a "
               "certificate.",
               {words.number(100 * result.device.saturated_contact_share, 0)}));
+  if (!soft_real_time(result.device).empty())
+    out.push_back(words("Soft real time: this computer gave the device no priority, so forces may have come late."));
   add_pauses(words, result, out);
   if (const std::string help = help_words(words, result.assists); !help.empty()) out.push_back(help);
   return out;

@@ -101,6 +101,7 @@ class DaqWithBoards final : public DataAcquisition {
   DaqWithBoards(std::unique_ptr<Boards> boards, RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options)
       : boards_(std::move(boards)), driver_(board0, board1, options) {}
   DaqCapabilities capabilities() const noexcept override { return driver_.capabilities(); }
+  bool await_sync() noexcept { return driver_.await_sync(); }
   DaqSample read() noexcept override { return driver_.read(); }
   void write(const DacFrame& frame) noexcept override { driver_.write(frame); }
   void arm(bool enabled) noexcept override { driver_.arm(enabled); }
@@ -123,8 +124,9 @@ Backend mc4000_backend(const BackendOptions& options) {
   auto boards = std::unique_ptr<Boards>(
       new Boards{PciBus(options.card.substr(0, comma), rate_hz), PciBus(options.card.substr(comma + 1), rate_hz)});
   Boards& b = *boards;
-  return {.daq =
-              std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.first, b.second, mc4000_options(options))};
+  auto daq = std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.first, b.second, mc4000_options(options));
+  DaqWithBoards<Boards>& driver = *daq;
+  return {.daq = std::move(daq), .await_sync = [&driver] { return driver.await_sync(); }};
 }
 
 Backend emulated_mc4000_backend(const BackendOptions& options) {

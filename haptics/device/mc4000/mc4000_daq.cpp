@@ -104,9 +104,16 @@ std::int32_t Mc4000Daq::extended(std::uint32_t count) const noexcept {
   return sign_extended(count, options_.map.count_bits);
 }
 
+bool Mc4000Daq::await_sync() noexcept {
+  if (!boards_[0]->tells_sync()) return false;
+  awaited_ = boards_[0]->await_sync();
+  return awaited_ > 0;
+}
+
 DaqSample Mc4000Daq::read() noexcept {
   const Mc4000Map& map = options_.map;
-  const std::uint32_t periods = boards_[0]->await_sync();
+  const std::uint32_t periods = awaited_ ? *awaited_ : boards_[0]->await_sync();
+  awaited_.reset();
   const std::array<std::uint32_t, 2> flags{boards_[0]->read(map.interrupt_flags),
                                            boards_[1]->read(map.interrupt_flags)};
   for (std::size_t b = 0; b < 2; ++b) boards_[b]->write(map.interrupt_flags, flags[b] & map.flag_sync);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ class Mc4000Daq final : public DataAcquisition {
   DaqCapabilities capabilities() const noexcept override {
     return {options_.name, options_.rate_hz, options_.map.dac_bits};
   }
+  /// Waits for board 0's next SYNC where it tells of it; the next read() is then of that one. @return false: it does
+  /// not tell, the caller keeps the time.
+  bool await_sync() noexcept;
   DaqSample read() noexcept override;
   void write(const DacFrame& frame) noexcept override;
   void arm(bool enabled) noexcept override;
@@ -61,6 +65,7 @@ class Mc4000Daq final : public DataAcquisition {
   std::uint32_t watchdog_counts_;
   DacFrame written_;
   bool armed_ = false;
+  std::optional<std::uint32_t> awaited_;  ///< periods that await_sync() saw and read() has not yet told
   DaqSample last_;
 };
 

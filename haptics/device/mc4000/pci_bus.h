@@ -27,6 +27,7 @@ class PciBus final : public RegisterBus {
   std::uint32_t read(std::uint32_t word) noexcept override;
   void write(std::uint32_t word, std::uint32_t value) noexcept override;
   std::uint32_t await_sync() noexcept override;
+  bool tells_sync() const noexcept override { return counts_interrupts_; }
 
  private:
   int file_ = -1;

@@ -16,6 +16,8 @@ class RegisterBus {
   /// Waits for the board's interrupt where it has one that is heard, else for nothing.
   /// @return SYNC periods since the last call: by counted interrupts, or by the host's clock; 0: none yet.
   virtual std::uint32_t await_sync() noexcept = 0;
+  /// Whether await_sync() waits.
+  virtual bool tells_sync() const noexcept { return false; }
 };
 
 }  // namespace trocar

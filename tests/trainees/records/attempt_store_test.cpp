@@ -175,6 +175,24 @@ TEST(AttemptStore, ListsNewestFirstByTraineeAndExercise) {
   EXPECT_FALSE(store.latest("nobody"));
 }
 
+TEST(AttemptStore, ALoopWithoutRightsIsKnownInLists) {
+  Database database(":memory:");
+  AttemptStore store(database);
+  const auto listed = [&](const char* backend, const std::string& realtime) {
+    AttemptResult result = sample_result();
+    result.device.backend = backend;
+    result.device.realtime = realtime;
+    const AttemptId id = store.begin_attempt(sample_start());
+    store.finish_attempt(id, result);
+    return store.list({}).front().soft_real_time;
+  };
+  const std::string refused = R"({"lanes":{"haptic":{"policy":"SCHED_OTHER","refused":"Operation not permitted"}}})";
+  EXPECT_FALSE(listed("simulated", ""));
+  EXPECT_FALSE(listed("simulated", R"({"lanes":{"haptic":{"policy":"SCHED_FIFO 80"}}})"));
+  EXPECT_TRUE(listed("simulated", refused));
+  EXPECT_FALSE(listed("pointer", refused));
+}
+
 TEST(AttemptStore, IdentifiersAreOrderedByTime) {
   Database database(":memory:");
   AttemptStore store(database);

@@ -179,7 +179,7 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
                              compare_section(view, frame) + rating_section(view, frame) + heat_section(view) +
                              path_section(view) + film_section(view, frame) + metric_table(view) +
                              "<div class=\"two\"><div>" + device_facts(view) + "</div><div>" + origin_facts(view) +
-                             "</div></div>");
+                             "</div></div>" + pace_section(view));
 }
 
 }  // namespace trocar::review

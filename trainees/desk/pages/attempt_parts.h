@@ -35,6 +35,8 @@ std::string event_table(const AttemptView& view);
 std::string subscore_table(const AttemptView& view);
 std::string metric_table(const AttemptView& view);
 std::string device_facts(const AttemptView& view);
+/// The loop's receipt of a live attempt, with its histograms; "" in lockstep.
+std::string pace_section(const AttemptView& view);
 /// What people say of the replay on a scale (rating_scales.h), and for who may write the form for it. "" where there is
 /// neither.
 std::string rating_section(const AttemptView& view, const Frame& frame);

@@ -3,6 +3,7 @@
 
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/pacing.h"
 #include "trainees/markup/score_words.h"
 
 namespace trocar::review {
@@ -142,6 +143,8 @@ std::string verdict_band(const AttemptView& view) {
            (o.passed ? "Passed" : "Not passed") + " by decision of " + verbatim(o.printed) + "</strong>, " +
            date_html(o.utc) + ": " + verbatim(o.reason) + " <small>The score above stays as it was.</small></p>";
   }
+  if (const std::string soft = soft_real_time(view.result.device); has && !soft.empty())
+    out += "<p class=\"override\">" + shape("integrity") + escape_html(soft) + "</p>";
   return out + "</section>";
 }
 
@@ -263,6 +266,20 @@ std::string device_facts(const AttemptView& view) {
             number_cell(std::to_string(w.ticks)) + "</tr>";
   if (!rows.empty()) out += table("Warnings of the device loop", head_cells({"Warning", ">First", ">Ticks"}), rows);
   return section("device", "Run report", out);
+}
+
+std::string pace_section(const AttemptView& view) {
+  const std::optional<Pacing> pacing = parse_pacing(view.result.device.realtime);
+  if (!pacing) return "";
+  std::string out = "<dl class=\"facts\">";
+  for (const auto& [name, value] : pacing_facts(*pacing)) out += fact(name, value);
+  const std::string plot = pacing_plot_svg(*pacing, view.result.device.rate_hz);
+  return section("pace", "Pace of the loop",
+                 out + "</dl>" +
+                     (plot.empty() ? ""
+                                   : figure(plot,
+                                            "How late the loop woke, how far its periods were off, how long a "
+                                            "tick worked.")));
 }
 
 std::string origin_facts(const AttemptView& view) {

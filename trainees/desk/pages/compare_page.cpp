@@ -6,6 +6,7 @@
 #include "trainees/desk/pages/compare_moment.h"
 #include "trainees/desk/pages/pages.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/pacing.h"
 
 namespace trocar::review {
 namespace {
@@ -72,7 +73,11 @@ std::string head_of(const AttemptView& view, const std::string& words, bool firs
   return "<section class=\"card side\" aria-label=\"" + escape_html(words) + "\"><h2>" + swatch +
          "<a href=\"/attempt/" + url_part(view.result.uuid) + "\">" + escape_html(words) + "</a></h2><p><strong>" +
          score_text(grade.score) + "</strong> " + verdict + ", " + verbatim(view.result.trainee) + ", " +
-         date_html(view.result.started_utc) + "</p><p>" + escape_html(verdict_reason(view)) + "</p></section>";
+         date_html(view.result.started_utc) + "</p><p>" + escape_html(verdict_reason(view)) + "</p>" +
+         (grade.score && !soft_real_time(view.result.device).empty()
+              ? "<p><span class=\"tag\">soft real time</span></p>"
+              : "") +
+         "</section>";
 }
 
 std::string traces(const CompareView& view) {

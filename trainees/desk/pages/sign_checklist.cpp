@@ -2,6 +2,7 @@
 
 #include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/pacing.h"
 
 namespace trocar::review {
 namespace {
@@ -34,6 +35,7 @@ SignCheck device(const RunReport& run_report, double late_share) {
   const std::string words = std::to_string(run_report.overruns) + " of " +
                             plural(static_cast<std::int64_t>(run_report.ticks), "tick", "ticks") + " missed";
   if (missed > late_share * ticks) return {false, "Device late: " + words};
+  if (!soft_real_time(run_report).empty()) return {false, "Soft real time: no priority for the loop (" + words + ")"};
   return {true, "Device on time (" + words + "), forces rendered"};
 }
 

@@ -149,7 +149,8 @@ std::string attempts_table(const TraineeView& view) {
             (number.empty() ? "Attempt" : "No. " + number) + "</a></th>" +
             number_cell(one.place > 0 ? std::to_string(one.place) : "\xE2\x80\x93") + "<td>" + date_html(p.utc) +
             "</td>" + cell(words_of(p.status)) + number_cell(score_text(p.score)) + "<td>" + result_cell(one) +
-            "</td><td class=\"why\">" + reason_of(p) + "</td></tr>";
+            (p.soft_real_time ? " <span class=\"tag\">soft real time</span>" : "") + "</td><td class=\"why\">" +
+            reason_of(p) + "</td></tr>";
   }
   if (rows.empty()) return "";
   const std::string caption = part.pages == 1

@@ -44,13 +44,14 @@ std::string cohort_csv(const CohortView& view) {
 }
 
 std::string trainee_csv(const TraineeView& view) {
-  std::string out = csv_line({"trainee", "exercise", "level", "input", "rules_sha256", "try", "number", "attempt",
-                              "started_utc", "status", "score", "passed", "passed_by_score", "decided_by"});
+  std::string out =
+      csv_line({"trainee", "exercise", "level", "input", "rules_sha256", "try", "number", "attempt", "started_utc",
+                "status", "score", "passed", "passed_by_score", "decided_by", "soft_real_time"});
   const auto line = [&](const CurveKey& key, const std::string& at, const CurvePoint& p) {
     return csv_line({csv_text(view.code), csv_text(key.exercise_id), csv_text(key.level), csv_text(key.hand),
                      csv_text(key.rubric_sha256), at, std::to_string(p.number), csv_text(p.uuid), csv_text(p.utc),
                      csv_text(p.status), csv_number(p.score), p.passed ? "1" : "0", p.passed_by_score ? "1" : "0",
-                     csv_text(p.decided_by)});
+                     csv_text(p.decided_by), p.soft_real_time ? "1" : "0"});
   };
   for (const CurveView& curve : view.curves)
     for (std::size_t i = 0; i < curve.points.size(); ++i)

@@ -22,7 +22,7 @@ namespace trocar::review {
 namespace {
 
 CurvePoint point_of(const AttemptSummary& s) {
-  return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score};
+  return {s.uuid, s.started_utc, s.status, s.score, s.passed, s.row, s.decided_by, s.passed_by_score, s.soft_real_time};
 }
 
 /// What an exercise is called; its identifier where nobody says.

@@ -103,8 +103,10 @@ std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certific
   sql::Statement rows(
       database.connection(),
       "SELECT a.uuid, a.started_utc, a.status, coalesce(a.row_hash, ''), a.device_backend, a.hand, "
-      "coalesce(a.chain_position, 0), s.value FROM attempt a"
-      " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?");
+      "coalesce(a.chain_position, 0), s.value, " +
+          std::string(sql::kSoftRealTime) +
+          " FROM attempt a"
+          " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0 WHERE a.id = ?");
   for (const CertifiedBy& by : standing.attempts) {
     if (!rows.bind(by.row).step()) continue;
     CertifiedAttempt one{rows.text(0), rows.text(1),    rows.text(2), rows.text(3),   rows.text(4),
@@ -112,6 +114,7 @@ std::vector<CertifiedAttempt> attempts_behind(Database& database, const Certific
     one.score = rows.optional_real(7);
     one.passed_now = by.passed_now;
     one.decided_since = by.decided_now;
+    one.soft_real_time = rows.integer(8) != 0;
     out.push_back(std::move(one));
     rows.run();
   }

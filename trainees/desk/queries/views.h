@@ -67,6 +67,7 @@ struct CurvePoint {
   std::int64_t number = 0;      ///< of the attempt in this database
   std::string decided_by = {};  ///< "" where the score decides
   bool passed_by_score = false;
+  bool soft_real_time = false;  ///< its loop had no real-time priority
 };
 
 /// Quartiles of the cohort at the n-th attempt of each.

@@ -7,6 +7,7 @@
 #include "trainees/desk/reports/report_words.h"
 #include "trainees/markup/board_plots.h"
 #include "trainees/markup/html.h"
+#include "trainees/markup/pacing.h"
 #include "trainees/markup/score_words.h"
 #include "trainees/markup/stiffness_plot.h"
 
@@ -173,6 +174,17 @@ std::string undefined_metrics(const AttemptView& view) {
   return out.empty() ? out : out + ".";
 }
 
+/// Of a live attempt.
+void add_pace(std::vector<Block>& out, const RunReport& d) {
+  const std::optional<Pacing> pacing = parse_pacing(d.realtime);
+  if (!pacing) return;
+  out.emplace_back(Heading{"Pace of the loop", 2});
+  out.emplace_back(Facts{pacing_facts(*pacing), 2, false});
+  if (std::string plot = pacing_plot_svg(*pacing, d.rate_hz); !plot.empty())
+    out.emplace_back(printed::Figures{
+        {{std::move(plot), "How late the loop woke, how far its periods were off, how long a tick worked.", 1.0}}});
+}
+
 void add_device(std::vector<Block>& out, const AttemptView& view) {
   const RunReport& d = view.result.device;
   out.emplace_back(Heading{"Run report", 1});
@@ -200,6 +212,7 @@ void add_device(std::vector<Block>& out, const AttemptView& view) {
                   "towards a certificate.",
                   Tone::kBad, true});
   if (!view.result.integrity.empty()) out.emplace_back(Paragraph{view.result.integrity, Tone::kBad, true});
+  add_pace(out, d);
   if (d.warnings.empty()) return;
   Table table{"Warnings of the device loop", {{"Warning", 5}, {"First", 1, true}, {"Ticks", 1, true}}, {}};
   for (const DeviceWarning& w : d.warnings)
@@ -270,6 +283,8 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
   out.newest_utc = newest_entry(view, setting.notes);
   out.mark = mark_of(setting);
   out.blocks = {verdict(view)};
+  if (const std::string soft = soft_real_time(view.result.device); view.result.grade.score && !soft.empty())
+    out.blocks.emplace_back(Paragraph{soft, Tone::kBad, true});
   for (const VerdictOverride& o : view.overrides)
     out.blocks.emplace_back(Paragraph{
         std::string(o.passed ? "Passed" : "Not passed") + " by decision of " + o.printed + ", " + moment_text(o.utc) +

@@ -64,7 +64,9 @@ std::string result_of(const CertifiedAttempt& a) {
   const auto words = [](bool passed) { return std::string(passed ? "passed" : "not passed"); };
   if (!a.decided_since.empty() && a.passed_now != a.passed)
     return "since: " + words(a.passed_now) + ", by " + a.decided_since;
-  return a.decided_by.empty() ? result_words(a.score.has_value(), a.passed) : words(a.passed) + ", by " + a.decided_by;
+  return (a.decided_by.empty() ? result_words(a.score.has_value(), a.passed)
+                               : words(a.passed) + ", by " + a.decided_by) +
+         (a.soft_real_time ? ", soft real time" : "");
 }
 
 std::vector<std::string> not_attested(const Totals& totals) {

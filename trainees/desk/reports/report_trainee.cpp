@@ -230,8 +230,10 @@ void add_attempts(std::vector<Block>& out, const TraineeReportView& view) {
       const std::string result = d == nullptr
                                      ? result_words(point.score.has_value(), passed)
                                      : std::string(passed ? "passed" : "not passed") + " by decision of " + d->printed;
-      table.rows.push_back({std::to_string(i + 1), moment_text(point.utc), trocar::words_of(point.status),
-                            score_text(point.score), Cell(result, passed ? Tone::kGood : Tone::kPlain), point.uuid});
+      table.rows.push_back(
+          {std::to_string(i + 1), moment_text(point.utc), trocar::words_of(point.status), score_text(point.score),
+           Cell(result + (point.soft_real_time ? ", soft real time" : ""), passed ? Tone::kGood : Tone::kPlain),
+           point.uuid});
     }
     out.emplace_back(std::move(table));
   }

@@ -54,6 +54,7 @@ struct CertifiedAttempt {
   std::string decided_by = {};     ///< who decided otherwise than the score; `passed` is that decision
   bool passed_now = false;         ///< as it counts today; `passed` is as it counted when the certificate was given
   std::string decided_since = {};  ///< who has decided since; "" nobody
+  bool soft_real_time = false;     ///< its loop had no real-time priority
 };
 struct CertificateView {
   Certificate certificate = {};

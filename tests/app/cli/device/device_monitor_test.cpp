@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "haptics/device/backends/make_backend.h"
+#include "haptics/device/hostmot2/fake_hostmot2.h"
 #include "haptics/input_error.h"
 
 namespace trocar::device_monitor_test {
@@ -124,6 +126,54 @@ TEST(Monitor, KeepsTimeByTheClockUnlessInLockstep) {
   const auto begin = std::chrono::steady_clock::now();
   monitor(options, out, err);
   EXPECT_GE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 0.49);
+}
+
+TEST(Monitor, EveryBackEndThatIsSimulatedComesToLife) {
+  for (const std::string& backend : backend_names()) {
+    if (!backend_abilities(backend).pace) continue;
+    MonitorOptions options = fast(2);
+    options.backend = backend;
+    int code = -1;
+    const auto v = watch(options, code);
+    EXPECT_EQ(code, 0) << backend;
+    ASSERT_EQ(v.size(), 20u) << backend;
+    EXPECT_TRUE(v.back().at("fault").is_null()) << backend << v.back();
+    EXPECT_TRUE(!backend_capabilities(backend, 1000).motors || v.back().at("state") == "active") << backend;
+  }
+}
+
+/// The driver of a card that is there: by its own clock, amplifiers off, though the plant's hand holds the switch.
+TEST(Monitor, ARealCardIsLookedAtWithItsAmplifiersOff) {
+  SimulatedDaq device(FakeHostmot2::device_config({}));
+  FakeHostmot2 card(device, {}, hostmot2::standard_wiring());
+  card.set_hand_intent(card.sense().X_BS, 0.020);
+  card.press_deadman(true);
+  MonitorOptions options = fast(0.5);
+  options.lockstep = false;
+  options.backend = kHostmot2Backend;
+  options.card = card.address();
+  int code = -1;
+  const auto v = watch(options, code);
+  ASSERT_EQ(v.size(), 5u);
+  for (const json& line : v) EXPECT_EQ(line.at("armed"), false) << line;
+  EXPECT_FALSE(card.amplifiers_enabled());
+  EXPECT_TRUE(v.back().at("digital_in").get<std::uint32_t>() & kDeadman) << "shown as it is, and not heard";
+}
+
+TEST(Monitor, ARealDeviceTakesNoLockstepAndNoFaults) {
+  std::ostringstream out, err;
+  MonitorOptions options = fast(1);
+  options.backend = kHostmot2Backend;
+  EXPECT_THROW(monitor(options, out, err), InputError) << "it has a clock of its own";
+  options.lockstep = false;
+  options.injections = {"encoder-jump@1"};
+  EXPECT_THROW(monitor(options, out, err), InputError);
+  options.injections.clear();
+  options.card = "127.0.0.1:9";
+  EXPECT_THROW(monitor(options, out, err), EnvironmentError) << "nobody answers";
+  options.backend = "mc5000";
+  EXPECT_THROW(monitor(options, out, err), InputError);
+  EXPECT_EQ(out.str(), "");
 }
 
 TEST(Monitor, BadFilesAndFaultsAreRefused) {

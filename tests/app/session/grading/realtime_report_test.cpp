@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -46,7 +47,7 @@ TEST(RealtimeReport, EveryLaneSaysItsPolicyRateAndLatencies) {
   EXPECT_EQ(lane.at("policy"), "SCHED_OTHER");
   EXPECT_FALSE(lane.contains("refused")) << "nothing was asked for";
   const LaneReport& report = *executor.reports()[0];
-  EXPECT_DOUBLE_EQ(lane.at("rate_hz"), static_cast<double>(report.wakes + report.missed) / report.seconds);
+  EXPECT_DOUBLE_EQ(lane.at("rate_hz"), report.rate_hz());
   EXPECT_DOUBLE_EQ(lane.at("longest_gap_ms"), static_cast<double>(report.longest_gap_ns) * 1e-6);
   const auto same = [&](const char* what, const DurationCounts& counts) {
     const Json& spread = lane.at(what);
@@ -58,7 +59,42 @@ TEST(RealtimeReport, EveryLaneSaysItsPolicyRateAndLatencies) {
     EXPECT_EQ(spread.at("above_1ms"), counts.above_us(1000)) << what;
   };
   same("late_us", report.late);
+  same("period_us", report.period);
   same("cpu_us", report.cpu);
+  EXPECT_NE(json.at("kernel").get<std::string>().find("Linux"), std::string::npos);
+  EXPECT_GE(json.at("processors"), 1);
+  EXPECT_GE(json.at("load"), 0);
+}
+
+std::uint64_t counted(const Json& bins) {
+  std::uint64_t sum = 0;
+  for (const auto& [lower, count] : bins.items()) sum += count.get<std::uint64_t>();
+  return sum;
+}
+
+TEST(RealtimeReport, TheLoopHasHistogramsAndTheOthersNot) {
+  Counted loop(50), other(1000000);
+  ThreadedExecutor executor(500);
+  executor.add_lane("haptic", {&loop}, 0);
+  executor.add_lane("other", {&other}, 0);
+  executor.run();
+  const Json lanes = Json::parse(realtime_json(executor, 0, {})).at("lanes");
+  EXPECT_EQ(counted(lanes.at("haptic").at("late_us").at("bins")), 50u);
+  EXPECT_EQ(counted(lanes.at("haptic").at("cpu_us").at("bins")), 50u);
+  EXPECT_EQ(counted(lanes.at("haptic").at("period_us").at("off_bins")), 49u) << "between fifty wakes";
+  EXPECT_FALSE(lanes.at("other").at("late_us").contains("bins"));
+}
+
+TEST(RealtimeReport, BinsOfAHistogramStandAtOneAndAHalfTwoThreeFiveSeven) {
+  DurationCounts counts;
+  for (const std::int64_t us : {0, 1, 4, 9, 10, 14, 15, 99, 149, 150, 1000, 70'000}) counts.add(us * 1000);
+  using Bins = std::map<std::int64_t, std::uint64_t>;
+  EXPECT_EQ(
+      histogram(counts),
+      (Bins{{0, 1}, {1, 1}, {3, 1}, {7, 1}, {10, 2}, {15, 1}, {70, 1}, {100, 1}, {150, 1}, {1000, 1}, {70'000, 1}}));
+  DurationCounts periods;
+  for (const std::int64_t us : {1000, 1001, 999, 800, 1249, 3000}) periods.add(us * 1000);
+  EXPECT_EQ(histogram(periods, 1000), (Bins{{-200, 1}, {-1, 1}, {0, 1}, {1, 1}, {200, 1}, {2000, 1}}));
 }
 
 TEST(RealtimeReport, ASecondClockWitnessesTheProgramsOwn) {

@@ -289,6 +289,21 @@ TEST(DebriefPauses, AreSaidWithTimeCountAndLength) {
   EXPECT_EQ(said(R"({"pauses":[1,{"at_s":"x"}]})"), "");
 }
 
+TEST(DebriefPauses, ALoopWithoutRightsIsSaidOfAScoredAttempt) {
+  const Exercise touch = shipped_exercise("surface-touch");
+  AttemptResult result = graded(touch, "L1");
+  result.device.backend = "simulated";
+  result.device.realtime = R"({"lanes":{"haptic":{"policy":"SCHED_OTHER","refused":"Operation not permitted"}}})";
+  const auto marks = [&] {
+    const std::vector<std::string> more = debrief_facts(Translator(), result, touch).more;
+    return std::count_if(more.begin(), more.end(),
+                         [](const std::string& line) { return line.starts_with("Soft real time: "); });
+  };
+  EXPECT_EQ(marks(), 1);
+  result.device.backend = "pointer";
+  EXPECT_EQ(marks(), 0) << "nothing was felt";
+}
+
 TEST(DebriefCutOff, SaysThatTheProgramEndedNotThatThePersonLeft) {
   const Exercise touch = shipped_exercise("surface-touch");
   AttemptResult result;

@@ -58,6 +58,46 @@ TEST_F(Mc4000, IsSetUpAsInFigure3_9ButWithItsWatchdogOn) {
   EXPECT_TRUE(first.digital_in & kHomeBeam);
 }
 
+/// A board in an interrupt's way: its SYNC is waited for apart from what reads it.
+class TellingBoard final : public RegisterBus {
+ public:
+  explicit TellingBoard(RegisterBus& board) : board_(board) {}
+  std::uint32_t read(std::uint32_t word) noexcept override { return board_.read(word); }
+  void write(std::uint32_t word, std::uint32_t value) noexcept override { board_.write(word, value); }
+  std::uint32_t await_sync() noexcept override {
+    ++waits_;
+    return silent_ ? 0 : board_.await_sync();
+  }
+  bool tells_sync() const noexcept override { return true; }
+  int waits_ = 0;
+  bool silent_ = false;
+
+ private:
+  RegisterBus& board_;
+};
+
+TEST_F(Mc4000, ABoardThatTellsOfItsSyncIsWaitedForOnceAPeriod) {
+  TellingBoard first(pair_.board(0));
+  Mc4000Daq daq(first, pair_.board(1), {});
+  first.waits_ = 0;
+  for (int k = 1; k <= 5; ++k) {
+    EXPECT_TRUE(daq.await_sync());
+    EXPECT_EQ(daq.read().elapsed_periods, 1U) << "of the SYNC that was waited for";
+    EXPECT_EQ(first.waits_, k);
+  }
+  EXPECT_EQ(daq.read().elapsed_periods, 1U) << "who does not wait first waits in the read";
+  EXPECT_EQ(first.waits_, 6);
+  first.silent_ = true;
+  EXPECT_FALSE(daq.await_sync()) << "the caller's clock takes over";
+  EXPECT_EQ(daq.read().elapsed_periods, 0U) << "nothing is news";
+}
+
+TEST_F(Mc4000, ABoardWithoutAnInterruptLeavesTheTimeToTheCaller) {
+  const auto daq = driver();
+  EXPECT_FALSE(daq->await_sync());
+  EXPECT_EQ(daq->read().elapsed_periods, 1U);
+}
+
 TEST_F(Mc4000, CountsAreThoseOfTheDeviceItself) {
   SimulatedDaq alone(EmulatedMc4000::device_config({}));
   const auto daq = driver();

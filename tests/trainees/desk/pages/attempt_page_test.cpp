@@ -195,6 +195,28 @@ TEST(AttemptPage, DeviceThatLackedRoomIsSaid) {
   EXPECT_NE(device_facts(view).find("sensor stale"), std::string::npos);
 }
 
+TEST(AttemptPage, AReceiptIsPrintedAndDrawn) {
+  const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
+  EXPECT_EQ(page.problems, std::vector<std::string>{});
+  const std::string device = page.by_id("pace")->text;
+  for (const char* words : {"Pace of the loop", "SCHED_FIFO 80", "1000.0 Hz", "Linux 6.1.0, not real-time",
+                            "2.1 on 2 processors", "Wake-up: late by", "Work of a tick"})
+    EXPECT_NE(device.find(words), std::string::npos) << words << " in " << device;
+  AttemptView lockstep = sample_attempt();
+  lockstep.result.device.realtime.clear();
+  EXPECT_EQ(attempt_page(lockstep, sample_frame()).find("Pace of the loop"), std::string::npos);
+}
+
+TEST(AttemptPage, AScoreFromALoopWithoutRightsIsMarked) {
+  AttemptView view = sample_attempt(90, 1.2);
+  const std::string mark = "Soft real time: the system gave the haptic loop no real-time priority";
+  EXPECT_EQ(attempt_page(view, sample_frame()).find(mark), std::string::npos);
+  view.result.device.realtime = R"({"lanes":{"haptic":{"policy":"SCHED_OTHER","refused":"Operation not permitted"}}})";
+  const CheckedPage page = check_page(attempt_page(view, sample_frame()));
+  EXPECT_EQ(page.problems, std::vector<std::string>{});
+  EXPECT_NE(page.all("section", "verdict").at(0)->text.find(mark), std::string::npos) << "beside the score";
+}
+
 TEST(AttemptPage, WithoutADeviceItNamesWhatHelpedAndNoMotors) {
   AttemptView view = sample_attempt();
   EXPECT_EQ(origin_facts(view).find("Helped by"), std::string::npos);

@@ -64,6 +64,14 @@ TEST(SignChecklist, EachLineTurnsWithItsOwnFault) {
   EXPECT_EQ(faults(view), Lines{"Remark in the record: aborted: window closed"});
 }
 
+TEST(SignChecklist, ALoopWithoutPriorityIsLookedAt) {
+  AttemptView view = clean_attempt();
+  view.result.device.realtime = R"({"lanes":{"haptic":{"policy":"SCHED_OTHER","refused":"Operation not permitted"}}})";
+  EXPECT_EQ(faults(view), Lines{"Soft real time: no priority for the loop (0 of 60000 ticks missed)"});
+  view.result.device.backend = "pointer";
+  EXPECT_EQ(faults(view), Lines{}) << "nothing was felt, so nothing could come late";
+}
+
 TEST(SignChecklist, WithoutAGateItSaysSo) {
   AttemptView view = clean_attempt();
   for (Subscore& part : view.result.grade.subscores) part.gate = false;

@@ -50,6 +50,16 @@ TEST(TraineePage, JudgementsCarryEvidenceCountAndRule) {
             "plateau +1.2 points over the newest 6 attempts n = 6, reliability not known yet, rules 1");
 }
 
+TEST(TraineePage, AScoreFromALoopWithoutRightsIsMarkedInListAndTable) {
+  TraineeView view = sample_trainee();
+  EXPECT_EQ(trainee_page(view, sample_frame()).find("soft real time"), std::string::npos);
+  for (CurvePoint& point : view.curves[view.chosen].points) point.soft_real_time = true;
+  const CheckedPage page = check_page(trainee_page(view, sample_frame()));
+  EXPECT_EQ(page.problems, std::vector<std::string>{});
+  EXPECT_NE(page.by_id("attempts")->text.find("soft real time"), std::string::npos);
+  EXPECT_NE(trainee_csv(view).find(",decided_by,soft_real_time"), std::string::npos);
+}
+
 TEST(TraineePage, NotesThreadWithForm) {
   const CheckedPage page = check_page(trainee_page(sample_trainee(), sample_frame()));
   const std::string notes = page.by_id("notes")->text;
@@ -169,9 +179,9 @@ TEST(TraineeCsv, OneLineAnAttempt) {
   view.curves[0].points.resize(1);
   EXPECT_EQ(trainee_csv(view),
             "trainee,exercise,level,input,rules_sha256,try,number,attempt,started_utc,status,score,passed,passed_by_"
-            "score,decided_by\r\n"
+            "score,decided_by,soft_real_time\r\n"
             "bo,surface-touch,L2,mouse," +
-                std::string(64, 'a') + ",1,0,uuid-1,2026-03-10T09:00:00Z,completed,33,0,0,\r\n");
+                std::string(64, 'a') + ",1,0,uuid-1,2026-03-10T09:00:00Z,completed,33,0,0,,0\r\n");
 }
 
 }  // namespace

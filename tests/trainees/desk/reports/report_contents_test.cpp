@@ -203,6 +203,17 @@ TEST(AttemptReport, VerdictEventsMetricsRunReportAndHashes) {
   EXPECT_TRUE(pdf.holds(std::string(64, 'd'))) << "the row hash, whole";
 }
 
+TEST(AttemptReport, TheReceiptIsPrintedAndDrawnAndALoopWithoutRightsMarked) {
+  AttemptReportView view = sample_run();
+  const ReadPdf pdf = read_pdf(printed::pdf_of(attempt_report(view, {})));
+  for (const char* words : {"Pace of the loop", "SCHED_FIFO 80", "Linux 6.1.0, not real-time", "Period: off by"})
+    EXPECT_TRUE(pdf.holds(words)) << words;
+  EXPECT_FALSE(pdf.holds("Soft real time"));
+  view.attempt.result.device.realtime =
+      R"({"lanes":{"haptic":{"policy":"SCHED_OTHER","refused":"Operation not permitted"}}})";
+  EXPECT_TRUE(read_pdf(printed::pdf_of(attempt_report(view, {}))).holds("Soft real time: the system gave"));
+}
+
 TEST(AttemptReport, AnOverrideIsSaidBesideTheScore) {
   AttemptReportView view = sample_run();
   view.attempt.overrides = {
