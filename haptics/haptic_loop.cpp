@@ -72,6 +72,13 @@ std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config)
   return limit;
 }
 
+/// A potentiometer trembles where an encoder stands.
+SafetyLimits with_noise(const HapticLoopConfig& config) {
+  SafetyLimits limits = config.safety;
+  limits.homing.still_counts[kPinchChannel] = config.device.pinch.noise_counts;
+  return limits;
+}
+
 /// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish. The same
 /// for a material or a vertex that its table does not have.
 bool is_sound(const ContactPatch& patch, bool triangles) {
@@ -114,12 +121,13 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       sure_friction_(sure_friction(config)),
       peak_(config.peak, config.device, config.heat),
       limiter_(peak_.most(), torque_rates(config), period_s_),
-      supervisor_(config.safety, count_limits(config), period_s_),
+      supervisor_(with_noise(config), count_limits(config), period_s_, config.device.homing),
       watch_(config.safety, config.device, config.heat, period_s_),
       safety_log_(config.daq.rate_hz),
       friction_rates_(config.friction, period_s_) {
   config_.friction = safe(config.friction, config.device);
-  home_ << home_angles(), config.device.pinch_home_m;
+  jig_ << home_angles(), config.device.pinch_home_m;
+  home_ = jig_;
   for (int i = 0; i < kChannels; ++i) {
     count_[i] = count_size(config.device.transmission[i]);
     velocity_.emplace_back(config.velocity, count_[i], period_s_);
@@ -144,6 +152,7 @@ HapticLoop::Motion HapticLoop::measure(const DaqSample& in) noexcept {
   supervisor_.observe(tick_, in, delta);
   if (supervisor_.just_homed()) {
     counts_.reset(in.counts);
+    home_ = jig_ + supervisor_.homing().offset().cwiseProduct(count_);
     take_home();
   }
   Motion motion;
@@ -382,6 +391,7 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   s.t_s = static_cast<double>(periods_) * period_s_;
   s.loop = supervisor_.state();
   s.fault = supervisor_.fault();
+  s.homing = supervisor_.homing().report();
   s.X_TI = motion.X_TI;
   s.V_TI_T = motion.V_TI_T;
   s.F_I_T = contact.tissue.F_I_T;

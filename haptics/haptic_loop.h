@@ -83,6 +83,7 @@ class HapticLoop {
   /// Of the last tick, for the tissue.
   const SolvedContacts& contacts() const { return contact_.contacts(); }
   const SafetyLog& safety_log() const { return safety_log_; }
+  const Homing& homing() const { return supervisor_.homing(); }
   const PassivityController& pinch_passivity() const { return pinch_passivity_; }
 
  private:
@@ -130,7 +131,7 @@ class HapticLoop {
 
   HapticLoopConfig config_;
   double period_s_;
-  ChannelVector home_, count_;  ///< where the jig holds the channels; their count, rad (m)
+  ChannelVector jig_, home_, count_;  ///< where the jig holds the channels, where they were homed; their count, rad (m)
   std::uint64_t tick_ = 0, periods_ = 0;
   CountAccumulator counts_;
   bool counting_ = false;

@@ -60,6 +60,8 @@ AddCommand add_doctor;
 AddCommand add_export;
 
 AddCommand add_device_forward;
+AddCommand add_device_home;
+AddCommand add_device_pinch;
 AddCommand add_device_boards;
 AddCommand add_device_calibrate;
 AddCommand add_device_card;

@@ -50,6 +50,8 @@ struct StudyRequest {
   std::string plant_words = {};               ///< what that file is called
   bool nominal = false;                       ///< the arm of the documents, where a study draws arms otherwise
 
+  std::string sensor = {};  ///< "net-ft" or "serial": forces come through its line too
+
   PlantParameters true_device() const { return plant ? *plant : draw_parameters(seed); }
   std::string device_words() const { return plant ? plant_words : "seed " + std::to_string(seed); }
 };

@@ -38,13 +38,14 @@ struct KnownStudy {
   StudyResult (*run)(const StudyRequest&);
   bool takes_plant = false;  ///< works on the device of the request
   bool draws = false;        ///< works on an arm drawn for each trial
+  bool reads_sensor = false;
 };
 
 /// In the order of the thesis, then what goes beyond it.
 constexpr std::array kStudies{
     KnownStudy{"kinematics", kinematics_study},
     KnownStudy{"motor", motor_study},
-    KnownStudy{"force", force_study},
+    KnownStudy{.name = "force", .run = force_study, .reads_sensor = true},
     KnownStudy{"walls", walls_study},
     KnownStudy{"torque-x", [](const StudyRequest& request) { return torque_study('x', request); }},
     KnownStudy{"torque-y", [](const StudyRequest& request) { return torque_study('y', request); }},
@@ -85,6 +86,10 @@ StudyRequest request_of(const StudyOptions& options, const KnownStudy& study) {
     throw InputError("study " + options.name + " draws no arms; --nominal is for " + names_where(&KnownStudy::draws));
   }
   request.nominal = options.nominal;
+  if (!options.sensor.empty() && !study.reads_sensor)
+    throw InputError("study " + options.name + " reads no force sensor; --sensor is for " +
+                     names_where(&KnownStudy::reads_sensor));
+  request.sensor = options.sensor;
   if (options.plant.empty()) return request;
   if (!study.takes_plant) {
     throw InputError("study " + options.name + " works on a device of its own; --plant is for " +
@@ -132,6 +137,10 @@ void add_study(CLI::App& parent, CommandAction& chosen) {
   study->add_flag("--quick", o.quick, "Fewer trials of the same kind");
   study->add_option("--plant", o.plant, "Plant file of the device, instead of the seed's: gravity, transparency, plant")
       ->check(file_name());
+  study
+      ->add_option("--sensor", o.sensor,
+                   "Forces also through the line of this sensor, its peer fed by the simulated device: force")
+      ->check(CLI::IsMember({"net-ft", "serial"}));
   study->add_flag("--nominal", o.nominal,
                   "The arm of the documents instead of drawn ones: " + names_where(&KnownStudy::draws));
   study->add_option("--seed", o.seed, "Of everything that is drawn")->capture_default_str()->check(seed_range());

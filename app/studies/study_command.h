@@ -17,6 +17,7 @@ struct StudyOptions {
   std::uint64_t seed = 1;            ///< of everything that is drawn
   std::filesystem::path plant = {};  ///< plant file, for the studies that take one
   bool nominal = false;              ///< no drawn arms, for the studies that draw them
+  std::string sensor = {};           ///< force sensor whose line the forces come through, for the study that reads one
 };
 
 /// Names that study_command knows.

@@ -8,8 +8,9 @@ namespace trocar {
 
 void Supervisor::enter(LoopState state) {
   state_ = state;
-  in_state_s_ = passed_s_ = beam_s_ = 0;
+  in_state_s_ = passed_s_ = 0;
   if (state != LoopState::kFault) ramp_ = 0;
+  if (state == LoopState::kUnhomed || state == LoopState::kSelfTest) homing_.begin();
 }
 
 void Supervisor::raise(FaultCode code, std::uint64_t tick, int channel, double value) {
@@ -70,7 +71,7 @@ void Supervisor::observe(std::uint64_t tick, const DaqSample& sample, const Delt
 
 void Supervisor::advance(std::uint64_t tick, const DaqSample& sample, const Delta& delta) {
   const bool deadman = sample.digital_in & kDeadman;
-  const bool still = std::all_of(delta.begin(), delta.end(), [](std::int32_t d) { return d == 0; });
+  const bool still = homing_.still(delta);
   deadman_seen_open_ = deadman_seen_open_ || !deadman;
   in_state_s_ += period_s_;
   switch (state_) {
@@ -79,7 +80,10 @@ void Supervisor::advance(std::uint64_t tick, const DaqSample& sample, const Delt
     case LoopState::kSelfTest:
       return self_test(tick, sample, still);
     case LoopState::kUnhomed:
-      return home(sample.digital_in & kHomeBeam, still);
+      just_homed_ = homing_.update(sample, delta);
+      if (!just_homed_) break;
+      deadman_seen_open_ = false;  // a deadman held since before homing does not arm
+      return enter(LoopState::kHomed);
     case LoopState::kHomed:
       if (deadman && deadman_seen_open_) enter(LoopState::kArmed);
       break;
@@ -103,15 +107,6 @@ void Supervisor::self_test(std::uint64_t tick, const DaqSample& sample, bool sti
   passed_s_ = failing ? 0 : passed_s_ + period_s_;
   if (passed_s_ >= limits_.selftest_s) return enter(LoopState::kUnhomed);
   if (in_state_s_ >= limits_.selftest_limit_s) raise(FaultCode::kSelfTest, tick, -1, failing);
-}
-
-void Supervisor::home(bool beam, bool still) {
-  beam_s_ = beam ? beam_s_ + period_s_ : 0;
-  passed_s_ = still ? passed_s_ + period_s_ : 0;
-  just_homed_ = beam_s_ >= limits_.beam_s && passed_s_ >= limits_.still_s;
-  if (!just_homed_) return;
-  deadman_seen_open_ = false;  // a deadman held since before homing does not arm
-  enter(LoopState::kHomed);
 }
 
 void Supervisor::arm(bool deadman) {

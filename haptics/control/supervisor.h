@@ -3,26 +3,26 @@
 //
 // OFF: until the first sample. SELFTEST: torque off; encoders still, DAC registers as written, no period missed and the
 // deadman seen open, all for 0.1 s on end. UNHOMED: torque off; homed after the jig's beam has been seen for 50 ms and
-// no encoder has moved for 0.5 s. HOMED: waits for the deadman to be closed by the operator: it must be seen open there
-// first. ARMED: amplifiers on, codes zero, 20 ms. ACTIVE: torque ramped up in 1 s. An open deadman returns to HOMED.
-// FAULT: a hard fault has codes zero and amplifiers inhibited within the same tick; a soft one (is_soft) fades weight
-// compensation within 20 ms and drops the contact at once. Only reset_fault() (an operator's act) leaves it, to
-// SELFTEST. No state re-enables torque by itself. Thread: haptic task; no allocation.
+// no encoder has moved for 0.5 s, and what homing.h asks for beyond that. HOMED: waits for the deadman to be closed by
+// the operator: it must be seen open there first. ARMED: amplifiers on, codes zero, 20 ms. ACTIVE: torque ramped up in
+// 1 s. An open deadman returns to HOMED. FAULT: a hard fault has codes zero and amplifiers inhibited within the same
+// tick; a soft one (is_soft) fades weight compensation within 20 ms and drops the contact at once. Only reset_fault()
+// (an operator's act) leaves it, to SELFTEST. No state re-enables torque by itself. Thread: haptic task; no allocation.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "haptics/control/homing.h"
 #include "haptics/device/data_acquisition.h"
 #include "haptics/exchange/stylus_state.h"
 
 namespace trocar {
 
 struct SafetyLimits {
-  double selftest_s = 0.1;          ///< all checks passed on end
-  double selftest_limit_s = 10;     ///< then the self-test has failed
-  double beam_s = 0.05;             ///< beam seen without a break before homing
-  double still_s = 0.5;             ///< no count on any channel before homing
+  double selftest_s = 0.1;       ///< all checks passed on end
+  double selftest_limit_s = 10;  ///< then the self-test has failed
+  HomingLimits homing;
   double arm_s = 0.02;              ///< amplifiers on, codes zero
   double ramp_s = 1.0;              ///< soft start
   double fade_s = 0.02;             ///< torque fade of a soft fault
@@ -53,8 +53,9 @@ enum SelfTestCheck : std::uint32_t {
 class Supervisor {
  public:
   /// @param max_counts most counts that each channel can make in one period.
-  Supervisor(const SafetyLimits& limits, const std::array<std::int32_t, kChannels>& max_counts, double period_s)
-      : limits_(limits), max_counts_(max_counts), period_s_(period_s) {}
+  Supervisor(const SafetyLimits& limits, const std::array<std::int32_t, kChannels>& max_counts, double period_s,
+             const HomingModel& homing = {})
+      : limits_(limits), max_counts_(max_counts), period_s_(period_s), homing_(limits.homing, homing, period_s) {}
 
   /// Checks the raw sample and advances the state. @param delta counts since the last tick.
   void observe(std::uint64_t tick, const DaqSample& sample, const std::array<std::int32_t, kChannels>& delta);
@@ -66,6 +67,7 @@ class Supervisor {
   LoopState state() const { return state_; }
   const Fault& fault() const { return fault_; }
   bool just_homed() const { return just_homed_; }
+  const Homing& homing() const { return homing_; }
   /// Torque may flow: ACTIVE, or a soft fault that fades.
   bool powered() const { return state_ == LoopState::kActive || (state_ == LoopState::kFault && ramp_ > 0); }
   /// Amplifiers on.
@@ -79,7 +81,6 @@ class Supervisor {
   void check_pace(std::uint64_t tick, std::uint32_t elapsed_periods);
   void advance(std::uint64_t tick, const DaqSample& sample, const Delta& delta);
   void self_test(std::uint64_t tick, const DaqSample& sample, bool still);
-  void home(bool beam, bool still);
   void arm(bool deadman);
   void enter(LoopState state);
 
@@ -89,11 +90,12 @@ class Supervisor {
   LoopState state_ = LoopState::kOff;
   Fault fault_;
   double in_state_s_ = 0, passed_s_ = 0;  ///< since the state was entered; of its condition on end
-  double beam_s_ = 0, ramp_ = 0;
+  double ramp_ = 0;
   std::uint32_t missed_in_a_row_ = 0;
   double missed_lately_ = 0;        ///< periods, fading over a second
   bool deadman_seen_open_ = false;  ///< since the self-test began, then since homing
   bool just_homed_ = false;
+  Homing homing_;
 };
 
 }  // namespace trocar

@@ -14,7 +14,8 @@
 
 namespace trocar {
 
-/// Digital inputs, one bit each; the last three are groups of seven, channel i at bit i of the group.
+/// Digital inputs, one bit each; the last three are groups of seven, channel i at bit i of the group. Bits 15, 23 and
+/// 31 are the encoders' marks (index_mark.h).
 enum DigitalInput : std::uint32_t {
   kDeadman = 1u << 0,        ///< operator's enabling switch closed
   kHomeBeam = 1u << 1,       ///< infrared beam of the home jig received

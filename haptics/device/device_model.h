@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "haptics/quantities.h"
@@ -47,6 +48,32 @@ struct IdentifiedGravity {
   Eigen::Vector2d stylus = Eigen::Vector2d::Zero();  ///< x y in S
 };
 
+/// How the zero of the joints is found (haptics/control/homing.h).
+enum class HomingMethod : std::uint8_t {
+  kLight,  ///< the thesis': where the jig holds the arm while the beam is received
+  kEdges,  ///< the same, and the roll from the middle between the two edges of the light
+  kIndex,  ///< from the marks of the encoders, whose places are known
+};
+
+struct HomingModel {
+  HomingMethod method = HomingMethod::kLight;
+  bool see_dark = false;  ///< the receiver must have been seen dark before its light counts
+  std::array<std::int32_t, kArmJoints> index_counts{};  ///< from home to an index mark, counts; kIndex only
+};
+
+/// The pinch's hardware. The transmission of its channel says counts and forces, these what goes along with them.
+enum class PinchDesign : std::uint8_t {
+  kDirect,         ///< pulley on the motor, encoder on its shaft [assumed]
+  kGeared,         ///< slide, two gears at right angles, motor with encoder [T 5.2, the first]
+  kPotentiometer,  ///< slide on a potentiometer, motor behind a servo driver [T 5.2, the alternative]
+};
+
+struct PinchHardware {
+  PinchDesign design = PinchDesign::kDirect;
+  std::int32_t noise_counts = 0;  ///< that its reading trembles by at rest: no motion
+  double jaw_length_m = 0.020;    ///< from hinge to pads [assumed]: opening = 2 length sin(angle / 2)
+};
+
 struct DeviceModel {
   std::array<Transmission, kChannels> transmission = nominal_transmissions();
   std::array<PlatformWeight, 3> platform_weights{{{3.21, {0, -0.0125, 0.0095}},   // wrist motors [T table 4.1]
@@ -59,6 +86,8 @@ struct DeviceModel {
   JointVector viscous = JointVector::Constant(0.005);  ///< N m s/rad [assumed]
   double pinch_travel_m = 0.030;                       ///< slide from closed (0) to fully open [assumed]
   double pinch_home_m = 0.020;                         ///< slide position in the home jig [assumed]
+  PinchHardware pinch;
+  HomingModel homing;
 
   /// Share of coulomb and viscous that surely is there: what identification may miss, else what 1 of 200 joints of this
   /// kind does not reach (log-normal, 20 %).

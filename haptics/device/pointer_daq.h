@@ -34,6 +34,7 @@ class PointerDaq final : public DataAcquisition, public SimulatedWorld {
   void press_pedal(bool pressed) noexcept override { pedal_ = pressed; }
   void press_exchange(bool pressed) noexcept override { exchange_ = pressed; }
   void press_deadman(bool pressed) noexcept override { pressed_ = pressed; }
+  void lead_arm(const JointVector&, double) noexcept override {}  // there is none
   HandSense sense() const noexcept override;
   void miss_sync() noexcept override { ++missed_; }
   double time_s() const noexcept override { return static_cast<double>(sync_) / rate_hz_; }

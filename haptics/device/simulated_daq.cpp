@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "haptics/device/index_mark.h"
 #include "haptics/device/plant/plant_check.h"
 
 namespace trocar {
@@ -14,7 +15,8 @@ namespace {
 
 // Each keeps its draws apart from the device's.
 constexpr std::uint64_t kTremorStream = 0x9E3779B97F4A7C15ull, kEncoderStream = 0xBF58476D1CE4E5B9ull,
-                        kJitterStream = 0x94D049BB133111EBull;
+                        kJitterStream = 0x94D049BB133111EBull, kBeamStream = 0xD6E8FEB86659FD93ull,
+                        kJigStream = 0xA0761D6478BD642Full, kWiperStream = 0xE7037ED1A0B428DBull;
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("simulated device: " + what);
@@ -52,9 +54,12 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
       substeps_(substeps_of(config)),
       plant_(config.plant ? *config.plant : draw_parameters(config.seed)),
       encoders_(plant_.parameters(), plant_.motor_outputs(), config.seed ^ kEncoderStream, config.edge_times),
+      beam_(plant_.parameters().options.beam, config.seed ^ kBeamStream),
+      potentiometer_(plant_.parameters().options.pinch, config.seed ^ kWiperStream),
       hand_(config.hand, config.seed ^ kTremorStream),
       faults_(config.faults),
-      jitter_(config.seed ^ kJitterStream) {
+      jitter_(config.seed ^ kJitterStream),
+      jig_play_(config.seed ^ kJigStream) {
   const PlantParameters& p = plant_.parameters();
   home_ = plant_.angles() + p.jig_error;
   plant_.place(home_, p.jig_jaw_opening);
@@ -62,19 +67,25 @@ SimulatedDaq::SimulatedDaq(const SimulatedDaqConfig& config)
   const ChannelVector outputs = plant_.motor_outputs();
   encoders_ = PlantEncoders(p, outputs, config.seed ^ kEncoderStream, config.edge_times);
   for (int i = 0; i < kChannels; ++i) last_.counts[i] = encoders_.count(i, outputs[i]);
+  if (potentiometer_.there()) last_.counts[kPinchChannel] = potentiometer_.read(plant_.motion().jaw);
 }
 
-void SimulatedDaq::return_to_jig() noexcept {
+void SimulatedDaq::lead_arm(const JointVector& from_jig, double seconds) noexcept {
   from_ = plant_.angles();
+  to_ = home_ + from_jig;
+  const double play = plant_.parameters().options.jig_play;
+  if (play > 0 && from_jig.head<kArmJoints - 1>().isZero())
+    for (int i = 0; i < kArmJoints - 1; ++i) to_[i] += jig_play_.symmetric(play);
   jaw_from_ = plant_.motion().jaw;
   carried_s_ = 0;
+  carry_s_ = std::max(seconds, period_s_);
   plant_.clamp(true);
 }
 
 void SimulatedDaq::carry() noexcept {
   carried_s_ += period_s_;
-  const double way = std::min(1.0, carried_s_ / kReturnS);
-  plant_.place(from_ + way * (home_ - from_), jaw_from_ + way * (plant_.parameters().jig_jaw_opening - jaw_from_));
+  const double way = std::min(1.0, carried_s_ / carry_s_);
+  plant_.place(from_ + way * (to_ - from_), jaw_from_ + way * (plant_.parameters().jig_jaw_opening - jaw_from_));
   if (way == 1.0) carried_s_ = -1;
 }
 
@@ -94,7 +105,13 @@ DaqSample SimulatedDaq::read() noexcept {
     sample.counts[i] = encoders_.count(i, outputs[i]);
     sample.edge_age_us[i] = encoders_.edge_age_us(i);
   }
+  if (potentiometer_.there()) {
+    sample.counts[kPinchChannel] = potentiometer_.read(plant_.motion().jaw);
+    sample.edge_age_us[kPinchChannel] = 0;  // nobody dates it
+  }
   sample.digital_in = digital_inputs();
+  for (int i = kArmJoints - 1; i >= 0; --i)
+    if (encoders_.at_mark(i, outputs[i])) sample.digital_in = (sample.digital_in & ~kMarkBits) | index_mark(i);
   faults_.spoil(sample, last_, time_s());
   last_ = sample;
   return sample;
@@ -105,6 +122,8 @@ void SimulatedDaq::pass_period() noexcept {
   switch_amplifiers(next_s());
   advance_period();
   ++sync_;
+  beam_.update(plant_.motion().X_BS, plant_.clamped(), faults_.lasts(InjectedFaultKind::kBeamDark, time_s()),
+               faults_.lasts(InjectedFaultKind::kBeamLit, time_s()));
   watch_writes();
   latch_codes();
 }
@@ -122,7 +141,7 @@ std::uint32_t SimulatedDaq::digital_inputs() const noexcept {
   if (clutch_pressed_) in |= kClutch;
   if (pedal_pressed_) in |= kPedal;
   if (exchange_pressed_) in |= kExchange;
-  if (plant_.clamped() && carried_s_ < 0) in |= kHomeBeam;
+  if (beam_.lit()) in |= kHomeBeam;
   if (faults_.lasts(InjectedFaultKind::kEmergencyStop, time_s())) in |= kEmergencyStop;
   if (watchdog_fired_) in |= kWatchdogFired;
   for (int i = 0; i < kChannels; ++i) {

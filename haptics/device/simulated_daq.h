@@ -8,13 +8,13 @@
 // The device starts clamped in its jig, a little off the exact home pose, amplifiers inhibited. The jig opens when the
 // amplifiers have been armed for kJigReleaseS without a break; it does not close again. arm(false) takes the
 // current away at once and forgets the codes in force.
-// Digital inputs: deadman closed while a hand holds the stylus and presses its switch, home beam received while in the
-// jig, hand fault while the hand's intent is not finite (it then exerts nothing), emergency stop and drive outputs by
-// injected faults, DAC registers read back each SYNC. The safety chain is wired past the controller: the emergency stop
-// and an open switch take the current away whatever arm() said. While armed a watchdog counts the SYNCs since the last
-// write; after kWatchdogS it zeroes the DACs until disarmed.
-// Thread: the haptic task's, which hand and force tap share. read, write, arm and the hand's calls neither
-// allocate, lock nor throw.
+// Digital inputs: deadman closed while a hand holds the stylus and presses its switch, home beam received while the jig
+// is there and its light comes through the coupler (infrared_beam.h), index marks with plant option `index`, hand fault
+// while the hand's intent is not finite (it then exerts nothing), emergency stop and drive outputs by injected faults,
+// DAC registers read back each SYNC. The safety chain is wired past the controller: the emergency stop and an open
+// switch take the current away whatever arm() said. While armed a watchdog counts the SYNCs since the last write; after
+// kWatchdogS it zeroes the DACs until disarmed. Thread: the haptic task's, which hand and force tap share. read, write,
+// arm and the hand's calls neither allocate, lock nor throw.
 #pragma once
 
 #include <array>
@@ -25,6 +25,7 @@
 #include "haptics/device/data_acquisition.h"
 #include "haptics/device/plant/device_plant.h"
 #include "haptics/device/plant/hand_model.h"
+#include "haptics/device/plant/infrared_beam.h"
 #include "haptics/device/plant/plant_encoder.h"
 #include "haptics/device/plant/plant_faults.h"
 #include "haptics/device/plant/plant_parameters.h"
@@ -83,7 +84,8 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   void set_ideal_wall(const IdealWall& wall) noexcept { ideal_wall_ = wall; }
   double ideal_wall_n() const noexcept;  ///< its push now
   /// The operator carries the arm back into its jig within kReturnS, where it is clamped again.
-  void return_to_jig() noexcept;
+  void return_to_jig() noexcept { lead_arm(JointVector::Zero(), kReturnS); }
+  void lead_arm(const JointVector& from_jig, double seconds) noexcept override;
   /// Codes that act on the DACs now, and counts that the encoders have missed: for tests and studies only.
   const DacFrame& codes_in_force() const noexcept { return in_force_; }
   std::int64_t counts_lost(int channel) const noexcept { return encoders_.lost(channel); }
@@ -111,7 +113,11 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   PlantEncoders encoders_;
   JointVector home_ = JointVector::Zero();  ///< where the jig holds the joints
   JointVector from_ = JointVector::Zero();  ///< where the operator took the arm up
-  double jaw_from_ = 0, carried_s_ = -1;    ///< on the way back to the jig, < 0: not on the way
+  JointVector to_ = JointVector::Zero();    ///< and where it goes
+  double jaw_from_ = 0, carried_s_ = -1;    ///< on the way, < 0: not on the way
+  double carry_s_ = kReturnS;               ///< that it takes
+  InfraredBeam beam_;
+  PlantPotentiometer potentiometer_;
   HandModel hand_;
   IdealWall ideal_wall_;
   PlantFaults faults_;
@@ -121,7 +127,7 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   DacFrame written_, in_force_;
   std::array<DacFrame, kMaxExtraDelayPeriods + 1> delayed_{};  ///< ring of frames on their way to the DAC
   std::size_t delay_head_ = 0;
-  PlantRandom jitter_;
+  PlantRandom jitter_, jig_play_;
   std::int64_t arrived_ = -1;  ///< newest SYNC whose frame has reached the DACs
   double armed_for_s_ = 0;
   bool armed_ = false, pressed_ = true, watchdog_fired_ = false;

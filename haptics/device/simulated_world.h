@@ -32,6 +32,9 @@ class SimulatedWorld {
   virtual void press_exchange(bool pressed) noexcept = 0;
   /// The enabling switch in the handle, pressed at first; it counts only while the hand holds the stylus.
   virtual void press_deadman(bool pressed) noexcept = 0;
+  /// The person leads the arm by hand, motors off, to where each joint is so far from its place in the jig (rad), and
+  /// holds it there; zero puts the stylus into its jig.
+  virtual void lead_arm(const JointVector& from_jig, double seconds) noexcept = 0;
   virtual HandSense sense() const noexcept = 0;
   /// Live: lets one period pass that the loop has missed. The next read() counts it.
   virtual void miss_sync() noexcept = 0;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "haptics/exchange/homing_report.h"
 #include "haptics/fault.h"
 #include "haptics/mapping/instrument_map.h"
 #include "haptics/quantities.h"
@@ -50,6 +51,7 @@ struct StylusState {
   double t_s = 0;            ///< loop time = period / rate, s
   LoopState loop = LoopState::kOff;
   Fault fault;
+  HomingReport homing;
 
   Pose X_TI;     ///< instrument (tip) in the theatre
   Twist V_TI_T;  ///< its velocity, linear part at the tip, expressed in T

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenarios/director/exercise_task.h"
+#include "scenarios/director/homing_words.h"
 #include "scenarios/director/safety_watch.h"
 #include "scenarios/director/surgery_watch.h"
 #include "scenarios/kinds/kind.h"
@@ -32,7 +33,7 @@ struct Director::State {
   void wait_for_start(const StylusState& state, double dt_s);
   void run(const StylusState& state, const TissueFrame* tissue, double dt_s);
   void end(Phase phase, EventType type, Severity severity, double value, const char* unit);
-  void describe_start(bool active);
+  void describe_start(const StylusState& state);
   void describe_run(const TaskInput& input);
   bool all_done() const { return current >= tasks.size(); }
 
@@ -74,8 +75,11 @@ void Director::State::end(Phase phase, EventType type, Severity severity, double
   }
 }
 
-void Director::State::describe_start(bool active) {
-  if (!active) return say(status, "Waiting for the device", "It starts when homing is complete.");
+void Director::State::describe_start(const StylusState& state) {
+  if (state.loop != LoopState::kActive) {
+    const HomingWords words = homing_words(state.loop, state.homing);
+    return say(status, words.title, words.hint, words.warning);
+  }
   if (status.phase == Phase::kArmed)
     return say(status, "Hold still in the start ball", "The clock starts in a moment.");
   say(status, "Move the tip into the start ball",
@@ -103,7 +107,7 @@ void Director::State::wait_for_start(const StylusState& state, double dt_s) {
       return say(status, "Not begun", "The tip did not rest in the start ball. Nothing is graded.", true);
     }
   }
-  describe_start(active);
+  describe_start(state);
 }
 
 void Director::State::describe_run(const TaskInput& input) {

@@ -1,6 +1,9 @@
 #include "scenarios/files/device_file.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "haptics/input_error.h"
@@ -32,15 +35,84 @@ Eigen::Vector2d two(StrictTable& table, const std::string& key) {
   return {x, y};
 }
 
+const std::vector<std::string> kHomingMethods{"light", "edges", "index"};
+const std::vector<std::string> kPinchDesigns{"direct", "geared", "potentiometer"};
+constexpr double kMostMark = 1e6, kMostPinchCounts = 1e9;
+
+void write_homing(std::ostream& out, const HomingModel& h) {
+  out << "\n[homing]\nmethod = \"" << kHomingMethods[static_cast<std::size_t>(h.method)]
+      << "\"\nsee_dark = " << (h.see_dark ? "true" : "false") << '\n';
+  if (h.method != HomingMethod::kIndex) return;
+  out << "marks_123_counts = [" << h.index_counts[0] << ", " << h.index_counts[1] << ", " << h.index_counts[2]
+      << "]\nmarks_456_counts = [" << h.index_counts[3] << ", " << h.index_counts[4] << ", " << h.index_counts[5]
+      << "]\n";
+}
+
+void read_homing(StrictTable table, HomingModel& h) {
+  const std::string method = table.choice_or("method", kHomingMethods, kHomingMethods[0]);
+  h.method = static_cast<HomingMethod>(std::find(kHomingMethods.begin(), kHomingMethods.end(), method) -
+                                       kHomingMethods.begin());
+  h.see_dark = table.flag_or("see_dark", h.see_dark);
+  if (h.method == HomingMethod::kIndex) {
+    const Vec3 first = table.vector("marks_123_counts", -kMostMark, kMostMark);
+    const Vec3 last = table.vector("marks_456_counts", -kMostMark, kMostMark);
+    for (int i = 0; i < kArmJoints; ++i)
+      h.index_counts[static_cast<std::size_t>(i)] =
+          static_cast<std::int32_t>(std::lround(i < 3 ? first[i] : last[i - 3]));
+  }
+  table.finish();
+}
+
+void write_pinch(std::ostream& out, const DeviceModel& model) {
+  const Transmission& t = model.transmission[kPinchChannel];
+  out << "\n[pinch]\ndesign = \"" << kPinchDesigns[static_cast<std::size_t>(model.pinch.design)]
+      << "\"\nm_per_rad = " << digits(t.ratio) << "\nclosed_counts = 0.0\nopen_counts = "
+      << digits(model.pinch_travel_m * t.counts_per_turn / (2 * std::numbers::pi * t.ratio))
+      << "\ntravel_m = " << digits(model.pinch_travel_m) << "\nhome_m = " << digits(model.pinch_home_m)
+      << "\nmost_force_n = " << digits(t.max_motor_torque / t.ratio) << "\nnoise_counts = " << model.pinch.noise_counts
+      << "\njaw_length_m = " << digits(model.pinch.jaw_length_m) << '\n';
+}
+
+/// Two points of the slide, closed and open, give the size of a count whatever the design.
+void read_pinch(StrictTable table, DeviceModel& model) {
+  Transmission& t = model.transmission[kPinchChannel];
+  const std::string design = table.choice("design", kPinchDesigns);
+  model.pinch.design =
+      static_cast<PinchDesign>(std::find(kPinchDesigns.begin(), kPinchDesigns.end(), design) - kPinchDesigns.begin());
+  t.ratio = table.number_or("m_per_rad", 1e-4, 0.1, t.ratio);
+  model.pinch_travel_m = table.number_or("travel_m", 0.002, 0.1, model.pinch_travel_m);
+  model.pinch_home_m = table.number_or("home_m", 0, 0.1, model.pinch_home_m);
+  if (model.pinch_home_m > model.pinch_travel_m)
+    table.fail("home_m", "the jig cannot hold the slide beyond its travel");
+  const double closed = table.number("closed_counts", -kMostPinchCounts, kMostPinchCounts);
+  const double open = table.number("open_counts", -kMostPinchCounts, kMostPinchCounts);
+  if (!(open - closed >= 50))
+    table.fail("open_counts", "must be at least 50 counts above 'closed_counts': is a wire of the reading swapped?");
+  t.counts_per_turn = 2 * std::numbers::pi * t.ratio * (open - closed) / model.pinch_travel_m;
+  t.max_motor_torque = t.ratio * table.number_or("most_force_n", 0.1, 100, t.max_motor_torque / t.ratio);
+  model.pinch.noise_counts = table.integer_or("noise_counts", 0, 100, model.pinch.noise_counts);
+  model.pinch.jaw_length_m = table.number_or("jaw_length_m", 0.002, 0.2, model.pinch.jaw_length_m);
+  if (model.pinch_travel_m >= 2 * model.pinch.jaw_length_m)
+    table.fail("jaw_length_m", "jaws of this length cannot open as far as the slide travels");
+  table.finish();
+}
+
 }  // namespace
 
 std::string device_toml(const DeviceModel& model, const std::string& comment, const std::string& plant) {
-  if (!model.identified_gravity) throw InputError("device file: the model has not been identified");
-  const IdentifiedGravity& g = *model.identified_gravity;
+  const HomingModel plain;
+  const bool homing = model.homing.method != plain.method || model.homing.see_dark;
+  const bool pinch = model.pinch.design != PinchDesign::kDirect;
+  if (!model.identified_gravity && !homing && !pinch)
+    throw InputError("device file: the model has not been identified");
   std::ostringstream out;
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);) out << "# " << line << '\n';
   if (!plant.empty()) out << "\nplant = \"" << plant << "\"\n";
+  if (homing) write_homing(out, model.homing);
+  if (pinch) write_pinch(out, model);
+  if (!model.identified_gravity) return out.str();
+  const IdentifiedGravity& g = *model.identified_gravity;
   out << "\n[gravity]\nplatform_n_m = " << array(g.platform) << "\nlink2_n_m = " << array(g.link2)
       << "\nwrist_n_m = " << array(g.wrist) << "\nstylus_n_m = " << array(g.stylus) << '\n';
   for (int i = 0; i < kArmJoints; ++i) {
@@ -59,6 +131,14 @@ DeviceModel parse_device(const std::string& text, const std::string& file, std::
   const std::string identified = root.text_or("plant", "");
   if (plant) *plant = identified;
   DeviceModel model;
+  for (const char* table : {"homing", "pinch"}) root.allow(table);
+  if (root.has("homing")) read_homing(root.table("homing"), model.homing);
+  if (root.has("pinch")) read_pinch(root.table("pinch"), model);
+  const bool apart = root.has("homing") || root.has("pinch");  // such a file need not have been identified
+  if (apart && !root.has("gravity") && !root.has("joint")) {
+    root.finish();
+    return model;
+  }
   IdentifiedGravity& g = model.identified_gravity.emplace();
   StrictTable gravity = root.table("gravity");
   g.platform = gravity.vector("platform_n_m", -kMostMoment, kMostMoment);

@@ -1,4 +1,5 @@
-// A device as it was identified, in TOML: weights as base parameters and friction of each joint.
+// What is known of one device, in TOML: how it is homed, the pinch's hardware, and as it was identified weights as base
+// parameters and friction of each joint.
 //
 //   plant = "simulated, seed 7"  what was identified; may be missing
 //   [gravity]                    first moments of weight, N m (IdentifiedGravity in haptics/device/device_model.h)
@@ -7,7 +8,15 @@
 //   [[joint]]                    six times, th1 to th6
 //   coulomb_n_m = 0.0075
 //   viscous_n_m_s_per_rad = 0.005
-// Strict as strict_toml.h. Everything else of the model stays nominal. Thread: loading only.
+//   [homing]                     (haptics/control/homing.h); may be missing
+//   method = "light"             or "edges" or "index"; see_dark = true
+//   marks_123_counts = [..]      index: from home to the mark of each joint, and marks_456_counts
+//   [pinch]                      thesis 5.2; missing: a pulley on the motor
+//   design = "geared"            or "potentiometer" or "direct"; m_per_rad of the motor, most_force_n
+//   closed_counts, open_counts   two points of the slide, travel_m apart; home_m: where the jig holds it
+//   noise_counts, jaw_length_m
+// A file with [homing] or [pinch] may do without [gravity] and [[joint]]. Strict as strict_toml.h. Everything else of
+// the model stays nominal. Thread: loading only.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +27,7 @@
 namespace trocar {
 
 /// @param comment lines that open the file, without their '#'. @param plant what was identified; empty: not said.
-/// @throws InputError for a model without identified gravity.
+/// @throws InputError for a model of which nothing is known beyond the nominal one.
 std::string device_toml(const DeviceModel& model, const std::string& comment, const std::string& plant = "");
 
 /// @throws InputError with file, line and column.

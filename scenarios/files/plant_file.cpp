@@ -77,7 +77,7 @@ void read_cable(StrictTable& root, PlantParameters& p) {
 
 void read_options(StrictTable& root, PlantParameters& p) {
   read_cable(root, p);
-  for (const char* name : {"encoder", "heat"}) {
+  for (const char* name : {"encoder", "beam", "pinch_drive", "heat"}) {
     in_table(root, name, [&](StrictTable& table) {
       for (const PlantNumber& f : option_numbers()) {
         if (std::string_view(f.table) == name) read_number(table, f, p);

@@ -100,12 +100,18 @@ void write_cable(Writer& out, PlantParameters p) {
 void write_options(Writer& out, PlantParameters p) {
   write_cable(out, p);
   const PlantOptions o = p.options;
-  for (const char* name : {"encoder", "heat"}) {
-    const bool encoder = std::string_view(name) == "encoder";
-    const bool on =
-        encoder ? o.encoder.missed_per_edge > 0 || o.encoder.limit_hz > 0 || o.encoder.uneven_counts > 0 : o.heat.on;
-    if (encoder && !on) p.options.encoder = {1e-6, 100e3};
-    out.table(name, on ? "" : encoder ? "off: nothing missed" : "off: windings stay at their start", on);
+  const std::pair<const char*, const char*> tables[] = {{"encoder", "off: nothing missed, no index"},
+                                                        {"beam", "as it is: the light of the jig, ideal"},
+                                                        {"pinch_drive", "off: a pulley on the motor, its encoder"},
+                                                        {"heat", "off: windings stay at their start"}};
+  for (const auto& [name, off] : tables) {
+    const std::string_view table = name;
+    bool on = table == "heat" && o.heat.on;
+    PlantParameters plain;
+    for (const PlantNumber& f : option_numbers())
+      on = on || (table == f.table && table != "heat" && f.at(p) != f.at(plain));
+    if (table == "encoder" && !on) p.options.encoder = {1e-6, 100e3};
+    out.table(name, on ? "" : off, on);
     for (const PlantNumber& f : option_numbers()) {
       if (std::string_view(f.table) == name) out.number(f.key, f.at(p), f.source);
     }

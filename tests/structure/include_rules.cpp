@@ -24,8 +24,8 @@ constexpr const char* kPlant = "haptics/device/(plant/[a-z_]+|simulated_daq)";
 const std::vector<Direction>& directions() {
   static const std::string plant_files = std::string("^") + kPlant + "\\.(h|cpp)$";
   static const std::string plant_sees =
-      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|simulated_world)\\.h|") + kPlant +
-      "\\.h)$";
+      std::string("^(haptics/quantities\\.h|haptics/device/(data_acquisition|index_mark|simulated_world)\\.h|") +
+      kPlant + "\\.h)$";
   static const std::vector<Direction> table{
       {"^haptics/(?!digest/)", "^haptics/(?!digest/)", "haptics depends on nobody"},
       {plant_files.c_str(), plant_sees.c_str(), "the plant shares nothing with the controller but the seam"},

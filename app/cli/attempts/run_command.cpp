@@ -48,6 +48,8 @@ const std::map<std::string, InjectedFaultKind>& injection_kinds() {
                                                  {"deadman-open", Kind::kDeadmanOpen},
                                                  {"drive-fault", Kind::kDriveFault},
                                                  {"watchdog", Kind::kWatchdog},
+                                                 {"beam-dark", Kind::kBeamDark},
+                                                 {"beam-lit", Kind::kBeamLit},
                                                  {"over-temperature", Kind::kOverTemperature},
                                                  {"sensor-silence", Kind::kSensorSilence}};
   return kinds;
@@ -328,7 +330,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   run->add_option("--inject", o.injections,
                   "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, "
                   "channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, "
-                  "drive-fault, over-temperature, hand-nan, hand-lets-go");
+                  "drive-fault, over-temperature, beam-dark, beam-lit, hand-nan, hand-lets-go");
   run->add_option("--plant", o.plant, "Plant file of the simulated device, instead of the seed's")->check(file_name());
   run->add_flag("--realtime", o.realtime, "Live: threads and the clock instead of lockstep");
   run->add_flag("--json", o.json, "Result as JSON on stdout");

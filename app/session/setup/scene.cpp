@@ -482,7 +482,7 @@ void set_stage(Scene& scene) {
 void spare_the_device(HapticLoopConfig& loop) {
   loop.device.transmission = pointer_transmissions();
   SafetyLimits& limits = loop.safety;
-  limits.selftest_s = limits.beam_s = limits.still_s = limits.arm_s = limits.ramp_s = kPointerAwake_s;
+  limits.selftest_s = limits.homing.beam_s = limits.homing.still_s = limits.arm_s = limits.ramp_s = kPointerAwake_s;
   limits.selftest_limit_s = limits.max_missed_share = std::numeric_limits<double>::infinity();
   limits.max_missed_in_a_row = std::numeric_limits<std::uint32_t>::max();
 }

@@ -1,8 +1,13 @@
 #include "app/studies/device/force_study.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -11,6 +16,7 @@
 #include "app/studies/contact/bare_control_loop.h"
 #include "app/studies/device/bar_drawing.h"
 #include "app/studies/study_files.h"
+#include "haptics/force_sensor/ati/fake_sensor.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/kinematics/device_geometry.h"
 #include "haptics/kinematics/inverse_kinematics.h"
@@ -60,12 +66,34 @@ PlantParameters ideal() {
   return p;
 }
 
+/// Weight and inertia of what hangs on the sensor, in the stylus frame, sample by sample.
+class FixtureLoad {
+ public:
+  /// @param X of the stylus in W'; its acceleration by its last two differences.
+  Wrench at(const Pose& X, double period_s) {
+    const Vec3 v = known_ > 0 ? Vec3((X.p - p_) / period_s) : Vec3::Zero();
+    const Vec3 a = known_ > 1 ? Vec3((v - v_) / period_s) : Vec3::Zero();
+    p_ = X.p, v_ = v, known_ = std::min(2, known_ + 1);
+    const Vec3 force = X.R.transpose() * (kFixture_kg * (Vec3(0, 0, -kGravity) - a));
+    return {force, kFixtureCom_S.cross(force)};
+  }
+
+ private:
+  static constexpr double kFixture_kg = 0.08;          // [assumed]
+  static inline const Vec3 kFixtureCom_S{0, 0, 0.02};  // m [assumed]
+  Vec3 p_ = Vec3::Zero(), v_ = Vec3::Zero();
+  int known_ = 0;
+};
+
 /// The fixture with its sensor, and the device that renders a wrench against it.
 class ForceBench {
  public:
+  /// @param line "net-ft", "serial": the readings come through that sensor's driver; empty: as they are.
   ForceBench(const PlantParameters& truth, const DeviceModel& model, const ForceSensorConfig& sensor,
-             const ForceSensorConfig& moments, std::uint64_t seed, const HandParameters& holds = fixture())
-      : daq_(config(truth, holds)),
+             const ForceSensorConfig& moments, std::uint64_t seed, const HandParameters& holds = fixture(),
+             const std::string& line = "")
+      : line_(line.empty() ? nullptr : std::make_unique<SensorLine>(line)),
+        daq_(config(truth, holds)),
         force_(sensor, seed),
         moment_(moments, seed + 1),
         home_(daq_.sense()),
@@ -73,7 +101,11 @@ class ForceBench {
             daq_, [this](const ArmState& arm) { return torque(arm); }, home_angles(), model) {
     run(
         kRest_s, [](double) { return 0.0; }, nullptr);
+    if (line_) line_->bias();
   }
+
+  int taken() const { return taken_; }        ///< readings that counted
+  int left_out() const { return left_out_; }  ///< of the readings asked for, those that the sensor did not vouch for
 
   /// Mean reading from both sides, in the stylus frame. @param wrench whether the device renders the case.
   Wrench read(const Case& c, bool wrench) {
@@ -131,11 +163,36 @@ class ForceBench {
       if (k % every != 0) continue;
       const HandSense now = daq_.sense();
       const Mat3 R = now.X_BS.R.transpose();
-      const Wrench reading{force_.sample(R * now.force_on_hand).force, moment_.sample(R * now.moment_on_hand).force};
-      if (take) take(reading);
+      if (!line_) {
+        const Wrench reading{force_.sample(R * now.force_on_hand).force, moment_.sample(R * now.moment_on_hand).force};
+        if (take) take(reading), ++taken_;
+        continue;
+      }
+      const double period_s = 1 / force_.config().rate_hz;
+      const Wrench hung = true_.at(now.X_BS, period_s);
+      const Wrench acting{force_.sample(R * now.force_on_hand + hung.force).force,
+                          moment_.sample(R * now.moment_on_hand + hung.moment).force};
+      const std::optional<Wrench> reading = line_->pass(acting);
+      const Wrench then = remembered(believed_.at(loop_.arm().X_WS, period_s));
+      if (!take) continue;
+      if (reading)
+        take(*reading + then * -1), ++taken_;
+      else
+        ++left_out_;
     }
   }
 
+  /// What hangs on the sensor, as the loop knew it when the reading was true.
+  Wrench remembered(const Wrench& now) {
+    hung_.push_back(now);
+    const std::size_t back = force_.delay();
+    return hung_[hung_.size() > back ? hung_.size() - 1 - back : 0];
+  }
+
+  std::unique_ptr<SensorLine> line_;
+  FixtureLoad true_, believed_;
+  std::vector<Wrench> hung_;
+  int taken_ = 0, left_out_ = 0;
   SimulatedDaq daq_;
   SimulatedForceSensor force_, moment_;
   HandSense home_;
@@ -205,6 +262,8 @@ Error held_error(const Case& c, const StudyRequest& request, const ForceSensorCo
 
 struct Errors {
   std::array<Error, 6> map, quantised, chain, uncalibrated, held;
+  std::array<Error, 6> through;  ///< the whole chain, read through the sensor's line
+  int taken = 0, left_out = 0;   ///< readings of that
 };
 
 Errors measure(const StudyRequest& request) {
@@ -221,6 +280,11 @@ Errors measure(const StudyRequest& request) {
     ForceBench whole(truth, model, {}, moments, request.seed + 10 * i);
     e.chain[i] = measured_error(whole, c);
     e.held[i] = held_error(c, request, moments);
+    if (!request.sensor.empty()) {
+      ForceBench line(truth, model, {}, moments, request.seed + 10 * i, fixture(), request.sensor);
+      e.through[i] = measured_error(line, c);
+      e.taken += line.taken(), e.left_out += line.left_out();
+    }
     if (request.quick) continue;
     ForceBench without_friction(ideal(), {}, clean, clean, request.seed);
     e.quantised[i] = measured_error(without_friction, c);
@@ -274,6 +338,30 @@ void add_held_cases(StudyResult& study, const Errors& e) {
   }
 }
 
+/// The same chain read through the sensor's bytes, beside its readings as they are.
+void add_line_cases(StudyResult& study, const Errors& e, const std::string& sensor) {
+  const std::string how = " through " + sensor;
+  const std::string definition =
+      "The whole chain again, each reading with the weight and inertia of an 80 g fixture on it, as counts through the "
+      "driver of the sensor and its byte-level peer; bias at the start, the fixture's share taken away by the loop's "
+      "own "
+      "pose as it was one lag before.";
+  for (std::size_t i = 0; i < cases().size(); ++i) {
+    const Case& c = cases()[i];
+    const std::string name = std::string(c.moment ? "1 N m about " : "1 N along ") + c.name + "," + how;
+    study.cases.push_back({name + ": direction", "deg", e.through[i].direction_deg, c.thesis_deg, "< 2 deg",
+                           e.through[i].direction_deg < 2, definition});
+    study.cases.push_back({name + ": differs from the reading itself", "deg",
+                           std::abs(e.through[i].direction_deg - e.chain[i].direction_deg), std::nullopt, "< 0.5 deg",
+                           std::abs(e.through[i].direction_deg - e.chain[i].direction_deg) < 0.5, definition});
+    const double share = std::abs(e.through[i].magnitude);
+    study.cases.push_back({name + ": magnitude", "%", 100 * share, std::nullopt, "< 5 %", share < 0.05, definition});
+  }
+  study.cases.push_back({"readings" + how + " left out of " + std::to_string(e.taken + e.left_out), "",
+                         static_cast<double>(e.left_out), std::nullopt, "none", e.left_out == 0,
+                         "Silent or saturated: they are in no mean."});
+}
+
 void draw_forces(StudyResult& study, const Errors& e, bool whole) {
   StudyCurves c{"direction", "Direction error of six wrenches at home (simulated plant)",
                 "wrench",    "direction error, deg",
@@ -308,6 +396,7 @@ StudyResult force_study(const StudyRequest& request) {
   const Errors e = measure(request);
   add_force_cases(study, e);
   add_held_cases(study, e);
+  if (!request.sensor.empty()) add_line_cases(study, e, request.sensor);
   draw_forces(study, e, !request.quick);
   return study;
 }

@@ -49,6 +49,8 @@ DeviceReading device_reading(const TickRecord& record, const HapticLoopConfig& l
   out.energy_j = record.stylus.energy_j;
   out.k_max_n_per_m = record.k_max_n_per_m;
   out.stiffness_n_per_m = record.stiffness_n_per_m;
+  out.state = record.stylus.loop;
+  out.homing = record.stylus.homing;
   out.loop = loop_state_name(record.stylus.loop);
   out.saturated = record.stylus.saturated;
   out.passivity_active = record.stylus.passivity_active;

@@ -22,7 +22,9 @@ struct DeviceReading {
   Vec3 stylus_force_T = Vec3::Zero();                                   ///< rendered at the stylus
   double grip_n = 0;
   double det_a = 0, winding_c = 0, energy_j = 0, k_max_n_per_m = 0, stiffness_n_per_m = 0;
-  std::string loop;  ///< state of the device loop
+  LoopState state = LoopState::kOff;
+  HomingReport homing;
+  std::string loop;  ///< the state in words
   bool saturated = false, passivity_active = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include "app/device_bench/device_drawing.h"
 #include "haptics/input_error.h"
+#include "scenarios/director/homing_words.h"
 #include "trainees/files/write_file.h"
 #include "trainees/store/database.h"
 
@@ -74,6 +75,11 @@ void DevicePanel::draw(Ui& ui, const PracticeModel& model) const {
   const Translator& w = model.words();
   const DeviceReading& r = reading_;
   const double all = ui.room();
+  if (r.state == LoopState::kUnhomed || r.state == LoopState::kHomed) {
+    const HomingWords next = homing_words(r.state, r.homing);
+    ui.heading(w(next.title));
+    ui.line(w(next.hint), next.warning ? Ink::kCaution : Ink::kText);
+  }
   auto joints = joint_rows(r);
   joints.back().front() = w("pinch");
   panel_columns(ui, {w("joint"), w("deg"), w("deg/s"), w("asked mN m"), w("given mN m")},

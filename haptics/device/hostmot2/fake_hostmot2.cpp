@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "haptics/device/index_mark.h"
+
 namespace trocar {
 namespace {
 
@@ -242,7 +244,9 @@ std::uint32_t FakeHostmot2::read_register(std::uint16_t address) {
   if (const int i = instance_of(kEncoderModule, EncoderRegister::kControl, address); i >= 0) {
     const bool error = troubles_.quadrature_errors >> i & 1 || (i < kChannels && !(latched_.valid >> i & 1));
     troubles_.quadrature_errors &= ~(1 << i);
-    return (memory_[address / 4] & ~kQuadratureError) | (error ? kQuadratureError : 0);
+    const bool mark = marked_joint(latched_.digital_in) == i;
+    return (memory_[address / 4] & ~(kQuadratureError | kIndexInput)) | (error ? kQuadratureError : 0) |
+           (mark ? kIndexInput : 0);
   }
   if (const int port = instance_of(kIoModule, IoPortRegister::kData, address); port >= 0) return inputs(port);
   return memory_[address / 4];
@@ -348,6 +352,11 @@ void FakeHostmot2::press_exchange(bool pressed) noexcept {
 void FakeHostmot2::press_deadman(bool pressed) noexcept {
   const std::lock_guard lock(mutex_);
   device_.press_deadman(pressed);
+}
+
+void FakeHostmot2::lead_arm(const JointVector& from_jig, double seconds) noexcept {
+  const std::lock_guard lock(mutex_);
+  device_.lead_arm(from_jig, seconds);
 }
 
 HandSense FakeHostmot2::sense() const noexcept {

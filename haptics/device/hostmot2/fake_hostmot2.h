@@ -73,6 +73,7 @@ class FakeHostmot2 final : public SimulatedWorld {
   void press_pedal(bool pressed) noexcept override;
   void press_exchange(bool pressed) noexcept override;
   void press_deadman(bool pressed) noexcept override;
+  void lead_arm(const JointVector& from_jig, double seconds) noexcept override;
   HandSense sense() const noexcept override;
   void miss_sync() noexcept override;
   double time_s() const noexcept override;

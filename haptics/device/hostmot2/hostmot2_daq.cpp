@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/device/index_mark.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -183,6 +184,8 @@ DaqSample Hostmot2Daq::sample_of_answer() noexcept {
   stamp_ = stamp;
   at += 4;
   for (std::size_t i = 0; i < kChannels; ++i, at += 4) {
+    if (answer_.value32(at) & kIndexInput && i < kArmJoints && marked_joint(out.digital_in) < 0)
+      out.digital_in |= index_mark(static_cast<int>(i));
     if (!(answer_.value32(at) & kQuadratureError)) continue;
     out.valid = static_cast<std::uint8_t>(out.valid & ~(1U << i));
     lbp16::Datagram clear;

@@ -47,8 +47,9 @@ enum class PwmRegister : std::uint8_t { kValue, kMode, kPwmRate, kPdmRate, kEnab
 
 inline constexpr std::uint32_t kWatchdogKick = 0x5Au << 24, kWatchdogOff = 1u << 31, kBitten = 1;
 inline constexpr std::uint32_t kQuadratureError = 1u << 15, kFifteenClocks = 1u << 11;
-inline constexpr std::uint32_t kPdmMode = 3u << 3;  ///< 12 bit, not double buffered
-inline constexpr int kPdmBits = 12;                 ///< and a sign
+inline constexpr std::uint32_t kIndexInput = 1u << 2;  ///< level of the index input at the read [LinuxCNC hostmot2.h]
+inline constexpr std::uint32_t kPdmMode = 3u << 3;     ///< 12 bit, not double buffered
+inline constexpr int kPdmBits = 12;                    ///< and a sign
 inline constexpr std::uint32_t kMostPdm = (1u << kPdmBits) - 1;
 
 /// A signed code as the register of the analogue output has it: size in bits 27..16, sign in bit 31.

@@ -9,10 +9,16 @@
 namespace trocar {
 namespace {
 
+/// What drives the pinch's motor instead of an amplifier, where there is such a thing.
+PlantParameters behind_servo_driver(PlantParameters p) {
+  if (p.options.pinch.driver_lag > 0) p.amplifier_time_constant = p.options.pinch.driver_lag;
+  return p;
+}
+
 template <class T, std::size_t... I>
 std::array<T, kChannels> per_channel(const PlantParameters& p, std::index_sequence<I...>) {
   if constexpr (std::is_same_v<T, PlantMotor>) {
-    return {T(p.channel[I], p)...};
+    return {T(p.channel[I], I == kPinchChannel ? behind_servo_driver(p) : p)...};
   } else {
     return {T(I < kArmJoints ? friction_behind_cable(p.channel[I].friction, p.options.cable[I % kArmJoints])
                              : p.channel[I].friction)...};
@@ -42,7 +48,8 @@ DevicePlant::DevicePlant(const PlantParameters& parameters)
       stylus_inertia_(stylus_inertia_tensor(p_)),
       cable_(cables(p_, std::make_index_sequence<kArmJoints>{})),
       friction_(per_channel<PlantFriction>(p_, std::make_index_sequence<kChannels>{})),
-      motor_(per_channel<PlantMotor>(p_, std::make_index_sequence<kChannels>{})) {
+      motor_(per_channel<PlantMotor>(p_, std::make_index_sequence<kChannels>{})),
+      gear_(p_) {
   const JointVector home = home_joint_angles(p_.link1, p_.link2);
   const Mat3 R_PB = configuration_at(home).q_WP.toRotationMatrix().transpose() * base_rotation_WB();
   platform_inertia_P_ = p_.platform_inertia * Mat3::Identity();
@@ -67,6 +74,7 @@ void DevicePlant::place(const JointVector& q, double jaw_opening) noexcept {
   for (PlantMotor& m : motor_) m.cut();
   refresh();
   for (int i = 0; i < kArmJoints; ++i) cable_[i].place(q[i]);
+  gear_.place(jaw_);
 }
 
 void DevicePlant::set_joint_rates(const JointVector& qd) noexcept {
@@ -268,9 +276,12 @@ void DevicePlant::step_pinch(double dt, double force) noexcept {
   jaw_ += 0.5 * dt * jaw_rate_;
   const ResistanceLine rub = friction_[kPinchChannel].linearise(jaw_rate_, dt);
   const ResistanceLine stop = stop_resistance(c.stop, jaw_, jaw_rate_);
-  const double push = force - rub.constant - stop.constant + drive(kPinchChannel, jaw_rate_, dt);
-  const double mass = p_.jaw_mass + c.rotor_inertia / (c.ratio * c.ratio);
-  jaw_rate_ = (mass * jaw_rate_ + dt * push) / (mass + dt * (rub.slope + stop.slope));
+  const double motor = drive(kPinchChannel, gear_.loose() ? gear_.rate() : jaw_rate_, dt);
+  const double push = force - rub.constant - stop.constant + (gear_.loose() ? 0 : motor);
+  const double mass = p_.jaw_mass + (gear_.loose() ? 0 : c.rotor_inertia / (c.ratio * c.ratio));
+  const double moved = mass + dt * (rub.slope + stop.slope);
+  jaw_rate_ = (mass * jaw_rate_ + dt * push) / moved;
+  if (gear_.loose()) jaw_rate_ = gear_.advance(motor, jaw_, jaw_rate_, moved, dt);
   friction_[kPinchChannel].advance(jaw_rate_, dt);
   jaw_ += 0.5 * dt * jaw_rate_;
 }
@@ -301,6 +312,7 @@ ChannelVector DevicePlant::motor_outputs() const noexcept {
   for (int i = 0; i < kArmJoints; ++i) {
     if (cable_[i].elastic()) out[i] = cable_[i].angle();
   }
+  if (gear_.loose()) out[kPinchChannel] = gear_.at();
   return out;
 }
 

@@ -24,6 +24,7 @@
 #include "haptics/device/plant/plant_kinematics.h"
 #include "haptics/device/plant/plant_motor.h"
 #include "haptics/device/plant/plant_parameters.h"
+#include "haptics/device/plant/plant_pinch.h"
 #include "haptics/quantities.h"
 
 namespace trocar {
@@ -118,6 +119,7 @@ class DevicePlant {
   std::array<PlantCable, kArmJoints> cable_;
   std::array<PlantFriction, kChannels> friction_;
   std::array<PlantMotor, kChannels> motor_;
+  PlantGear gear_;
 
   PlantConfiguration configuration_;
   PlantKinematics kinematics_;

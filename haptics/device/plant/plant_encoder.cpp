@@ -70,6 +70,12 @@ std::uint16_t PlantEncoders::edge_age_us(int channel) const noexcept {
   return static_cast<std::uint16_t>(std::clamp(std::ceil(age_us), 1.0, kLongestAgeUs));
 }
 
+bool PlantEncoders::at_mark(int channel, double output) const noexcept {
+  if (flaws_.index < 0.5) return false;
+  const auto i = static_cast<std::size_t>(channel);
+  return whole(i, position(i, output)) % static_cast<std::int64_t>(counts_per_turn_) == 0;
+}
+
 std::int32_t PlantEncoders::count(int channel, double output) const noexcept {
   const auto i = static_cast<std::size_t>(channel);
   const std::int64_t seen = whole(i, position(i, output)) - track_[i].lost;

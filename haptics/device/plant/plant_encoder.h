@@ -27,6 +27,8 @@ class PlantEncoders {
   /// The motors moved to `outputs` within dt, steadily.
   void follow(const ChannelVector& outputs, double dt) noexcept;
   std::int32_t count(int channel, double output) const noexcept;
+  /// Whether the disc stands at its index, one count of a turn; never unless so wired. What is missed moves no mark.
+  bool at_mark(int channel, double output) const noexcept;
   /// As DaqSample: since the counter last moved; 0 unless timed.
   std::uint16_t edge_age_us(int channel) const noexcept;
   /// Counts that a channel's counter lacks, signed.

@@ -28,6 +28,8 @@ enum class InjectedFaultKind : std::uint8_t {
   kDriveFault,       ///< fault output of the channel's amplifier
   kWatchdog,         ///< writes do not reach the board: its watchdog fires
   kOverTemperature,  ///< over-temperature output of the channel's amplifier
+  kBeamDark,         ///< emitter or receiver of the jig's light is dead
+  kBeamLit,          ///< the receiver says light whatever comes
   kSensorSilence,    ///< the board latches nothing: the last sample again, no period elapsed
 };
 

@@ -44,7 +44,7 @@ std::span<const PlantVector> plant_vectors();
 /// Of th1 to th6 (rad, N m), and of the pinch (m, N).
 std::span<const ChannelNumber> joint_numbers();
 std::span<const ChannelNumber> pinch_numbers();
-/// Tables encoder and heat: a table that is there switches its option on.
+/// Tables encoder, beam, pinch_drive and heat: a table that is there switches its option on.
 std::span<const PlantNumber> option_numbers();
 /// Of the cable of one joint.
 std::span<const ChannelNumber> cable_numbers();

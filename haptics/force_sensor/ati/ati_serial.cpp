@@ -27,6 +27,7 @@ constexpr int kSound = 0;
 WrenchStreamOptions nano25_options() {
   WrenchStreamOptions out;
   out.counts_per_n = 192;
+  out.counts_per_nm = 10560;
   return out;
 }
 

@@ -34,7 +34,7 @@ class AtiSerial final : public WrenchStream {
   std::string line_ = {};
 };
 
-/// Of the Nano25 SI-125-3: 192 counts a newton [F].
+/// Of the Nano25 SI-125-3: 192 counts a newton, 10560 a newton metre [F].
 WrenchStreamOptions nano25_options();
 
 }  // namespace trocar

@@ -51,19 +51,30 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
   Vec3 force;
   for (int i = 0; i < 3; ++i)
     force[i] = static_cast<double>(counts[static_cast<std::size_t>(i)]) / options_.counts_per_n;
-  record.sound = sound && force.cwiseAbs().maxCoeff() <= options_.most_n;
+  Vec3 moment;
+  for (int i = 0; i < 3; ++i)
+    moment[i] = static_cast<double>(counts[static_cast<std::size_t>(3 + i)]) / options_.counts_per_nm;
+  record.sound =
+      sound && force.cwiseAbs().maxCoeff() <= options_.most_n && moment.cwiseAbs().maxCoeff() <= options_.most_nm;
   force = options_.R_out_sensor * force;
-  if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n;
+  moment = options_.R_out_sensor * moment;
+  if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n, zero_moment_ = moment;
+  record.moment_nm = moment - zero_moment_;
   record.force_n = force - zero_ - options_.fixture_n;
   count(&WrenchLink::records);
   if (!record.sound) count(&WrenchLink::unsound);
   newest_.write(record);
 }
 
-ForceSample WrenchStream::sample(const Vec3& /*acting*/) {
-  const WrenchRecord& record = newest_.read();
+std::pair<WrenchRecord, bool> WrenchStream::newest() {
+  const WrenchRecord record = newest_.read();
   const bool fresh = record.number > 0 && static_cast<double>(now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
-  return {.number = ++sampled_, .force = record.force_n, .valid = fresh && record.sound};
+  return {record, fresh && record.sound};
+}
+
+ForceSample WrenchStream::sample(const Vec3& /*acting*/) {
+  const auto [record, holds] = newest();
+  return {.number = ++sampled_, .force = record.force_n, .valid = holds};
 }
 
 }  // namespace trocar

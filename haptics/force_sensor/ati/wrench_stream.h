@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "haptics/exchange/latest.h"
 #include "haptics/force_sensor/force_sensor.h"
@@ -17,19 +18,22 @@
 namespace trocar {
 
 struct WrenchStreamOptions {
-  double rate_hz = 40;        ///< at which the task takes samples
-  double lag_s = 0.15;        ///< of the sensor with its filter, for comparison with delivered forces [T: measured]
-  double silent_s = 0.2;      ///< without a record: not valid, and asked again [chosen]
-  double counts_per_n = 1e6;  ///< as the box or calibration sheet says [M: Net F/T's usual]
+  double rate_hz = 40;         ///< at which the task takes samples
+  double lag_s = 0.15;         ///< of the sensor with its filter, for comparison with delivered forces [T: measured]
+  double silent_s = 0.2;       ///< without a record: not valid, and asked again [chosen]
+  double counts_per_n = 1e6;   ///< as the box or calibration sheet says [M: Net F/T's usual]
+  double counts_per_nm = 1e6;  ///< likewise
   Mat3 R_out_sensor = Mat3::Identity();  ///< from the sensor's axes to those of the force that is given out
   Vec3 fixture_n = Vec3::Zero();         ///< weight that hangs on the sensor, in the axes given out; taken away
+  double most_nm = 3;                    ///< likewise
   double most_n = 125;                   ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
 };
 
 struct WrenchRecord {
   std::uint64_t number = 0;  ///< of records taken in, from 1
   Vec3 force_n = Vec3::Zero();
-  std::int64_t arrived_ns = 0;  ///< CLOCK_MONOTONIC
+  Vec3 moment_nm = Vec3::Zero();  ///< about the sensor's origin, turned as the force; bias taken away
+  std::int64_t arrived_ns = 0;    ///< CLOCK_MONOTONIC
   bool sound = false;
 };
 
@@ -44,6 +48,8 @@ class WrenchStream : public ForceSensor {
   const ForceSensorConfig& config() const override { return config_; }
   std::size_t delay() const override;
   WrenchLink link() const;
+  /// The newest record, and whether it still holds: sound, and no older than silent_s. The sensor task's, as sample().
+  std::pair<WrenchRecord, bool> newest();
   /// Takes the present force as zero, from the next record on: torque off and the arm still, the caller's care.
   void bias() { bias_due_ = true; }
 
@@ -56,7 +62,7 @@ class WrenchStream : public ForceSensor {
   void stop();
   bool ends() const { return ends_; }
   virtual void listen() = 0;
-  /// Counts of one record, three forces and three moments, which nobody asks for yet. @param sound as the peer says.
+  /// Counts of one record, three forces and three moments. @param sound as the peer says.
   void take(const std::array<std::int64_t, 6>& counts, bool sound);
   void count(std::uint64_t WrenchLink::*what, std::uint64_t by = 1);
   const WrenchStreamOptions& options() const { return options_; }
@@ -66,7 +72,7 @@ class WrenchStream : public ForceSensor {
   ForceSensorConfig config_;
   Latest<WrenchRecord> newest_;
   std::uint64_t taken_ = 0, sampled_ = 0;
-  Vec3 zero_ = Vec3::Zero();
+  Vec3 zero_ = Vec3::Zero(), zero_moment_ = Vec3::Zero();
   std::atomic<bool> bias_due_ = false, ends_ = false;
   std::array<std::atomic<std::uint64_t>, 6> counters_{};
   std::thread thread_;

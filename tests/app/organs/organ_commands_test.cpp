@@ -132,8 +132,8 @@ TEST(OrganImport, RefusalsLeaveNothingBehind) {
   EXPECT_CONTAINS(refusal(options), "label 7 marks no voxel");
   options.label = {"5"}, options.triangles = 10;
   EXPECT_CONTAINS(refusal(options), "--triangles");
-  options.triangles = 500, options.surface.unit = "cm";
-  EXPECT_CONTAINS(refusal(options), "NIfTI is in mm");
+  options.triangles = 500, options.surface.unit = "inch";
+  EXPECT_CONTAINS(refusal(options), "inch");
   options.surface.unit.clear(), options.output = folder.path().string() + "/";
   EXPECT_CONTAINS(refusal(options), "names a folder");
   options.output.clear();

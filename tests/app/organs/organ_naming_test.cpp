@@ -114,7 +114,12 @@ TEST(OrganNaming, TheLabelTableInANiftiNamesItsNumbers) {
   EXPECT_EQ(report["organs"][0]["source"]["label_colour"], Json({255, 128, 0}));
   EXPECT_CONTAINS(report["organs"][0]["repairs"].dump(), "segments \\\"liver\\\", \\\"stomach\\\" mark no voxel");
   trial.options.label_table = "totalsegmentator-v2";
-  EXPECT_EQ(trial.imported()["organs"][0]["name"], "aorta") << "the file's own words go first";
+  EXPECT_CONTAINS(trial.refusal(), "label 1 is \"aorta\" by the file's own names and \"spleen\" in the table");
+  trial.options.label_table = trial.folder.write("own.csv", "1,celiac_trunk\n4,aorta\n").string();
+  const Json own = trial.imported();
+  EXPECT_EQ(own["organs"][0]["name"], "celiac_trunk") << "the user's own words go first";
+  EXPECT_EQ(own["organs"][0]["source"]["label_table"], "own.csv");
+  EXPECT_CONTAINS(own["organs"][0]["decisions"].dump() + own["organs"][0]["repairs"].dump(), "the file calls it");
 }
 
 TEST(OrganNaming, ADamagedOrAmbiguousTableNamesNothing) {

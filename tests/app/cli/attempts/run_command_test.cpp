@@ -47,12 +47,12 @@ TEST(ParseInjection, LeavesOutWhatIsNotSaid) {
 
 TEST(ParseInjection, KnowsEveryKind) {
   std::set<InjectedFaultKind> kinds;
-  for (const char* name :
-       {"encoder-jump", "encoder-stuck", "channel-invalid", "dac-stuck", "missed-sync", "hand-nan", "hand-lets-go",
-        "delay", "e-stop", "deadman-open", "drive-fault", "watchdog", "over-temperature", "sensor-silence"}) {
+  for (const char* name : {"encoder-jump", "encoder-stuck", "channel-invalid", "dac-stuck", "missed-sync", "hand-nan",
+                           "hand-lets-go", "delay", "e-stop", "deadman-open", "drive-fault", "watchdog",
+                           "over-temperature", "sensor-silence", "beam-dark", "beam-lit"}) {
     kinds.insert(parse_injection(std::string(name) + "@1").kind);
   }
-  EXPECT_EQ(kinds.size(), 14u);
+  EXPECT_EQ(kinds.size(), 16u);
 }
 
 TEST(ParseInjection, RefusesValuesThatTheDeviceCannotHave) {
@@ -69,7 +69,8 @@ TEST(ParseInjection, RefusesValuesThatTheDeviceCannotHave) {
 
 TEST(ParseInjection, RefusesWithTheFormOrTheKnownKinds) {
   EXPECT_EQ(refusal("encoder-jump"), "--inject encoder-jump: KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION]");
-  EXPECT_NE(refusal("gremlin@1").find("known are channel-invalid, dac-stuck, deadman-open, delay, drive-fault"),
+  EXPECT_NE(refusal("gremlin@1")
+                .find("known are beam-dark, beam-lit, channel-invalid, dac-stuck, deadman-open, delay, drive-fault"),
             std::string::npos);
   EXPECT_NE(refusal("@1").find("known are"), std::string::npos);
   EXPECT_NE(refusal("dac-stuck:7@1").find("channels are 0 to 6"), std::string::npos);

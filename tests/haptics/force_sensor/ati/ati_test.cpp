@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "haptics/force_sensor/ati/ati_serial.h"
+#include "haptics/force_sensor/ati/fake_sensor.h"
 #include "haptics/force_sensor/ati/net_ft.h"
 #include "haptics/input_error.h"
 #include "tests/support/allocation_guard.h"
@@ -251,6 +252,30 @@ TEST(AtiSerial, WhatIsNoSensorIsRefusedWithTheReason) {
   EXPECT_NE(refusal("/dev/nowhere").find("No such file"), std::string::npos);
   EXPECT_NE(refusal("/dev/null").find("no serial line"), std::string::npos);
 }
+
+class Lines : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Lines, GiveWhatTheyAreGivenToACountAndVouchForNothingElse) {
+  SensorLine line(GetParam());
+  const double force_count = GetParam() == std::string("serial") ? 1.0 / 192 : 1e-6;
+  const Wrench load{Vec3(1.25, -0.5, 3), Vec3(0.1, 0, -0.02)};
+  const auto first = line.pass(load);
+  ASSERT_TRUE(first);
+  EXPECT_LT((first->force - load.force).cwiseAbs().maxCoeff(), 0.51 * force_count);
+  EXPECT_LT((first->moment - load.moment).cwiseAbs().maxCoeff(), 0.51 / 10560);
+  EXPECT_FALSE(line.pass(load, PeerAct::kSaysSaturated)) << "the peer says so itself";
+  EXPECT_FALSE(line.pass(load, PeerAct::kStaysSilent));
+  EXPECT_FALSE(line.pass({Vec3(126, 0, 0), Vec3::Zero()})) << "beyond its range";
+  EXPECT_FALSE(line.pass({Vec3::Zero(), Vec3(0, 3.05, 0)}));
+  line.bias();
+  ASSERT_TRUE(line.pass(load));
+  const auto zero = line.pass(load);
+  ASSERT_TRUE(zero);
+  EXPECT_LT(zero->force.norm() + zero->moment.norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensor, Lines, ::testing::Values("net-ft", "serial"),
+                         [](const auto& kind) { return std::string(kind.param) == "serial" ? "Serial" : "NetFt"; });
 
 }  // namespace
 }  // namespace trocar::ati_test

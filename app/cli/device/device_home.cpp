@@ -1,0 +1,326 @@
+#include "app/cli/device/device_home.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/attempts/run_command.h"
+#include "app/cli/command.h"
+#include "app/session/interrupt.h"
+#include "app/session/setup/device_files.h"
+#include "app/session/setup/true_plant.h"
+#include "haptics/device/backends/homing_operator.h"
+#include "haptics/device/transmission.h"
+#include "haptics/haptic_loop.h"
+#include "haptics/input_error.h"
+#include "haptics/kinematics/device_geometry.h"
+#include "haptics/kinematics/inverse_kinematics.h"
+#include "scenarios/director/homing_words.h"
+#include "scenarios/files/device_file.h"
+#include "trainees/files/write_file.h"
+
+namespace trocar {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kNotHomed = 4;
+constexpr double kHomeRateHz = 1000;
+const std::vector<std::string> kMethods{"light", "edges", "index"};
+
+std::string joint_words(int channel) {
+  return channel == kPinchChannel ? "the pinch" : "joint " + std::to_string(channel + 1);
+}
+
+/// What the display has no room for: which joint, how much.
+std::string homing_detail(const HomingReport& h) {
+  std::ostringstream out;
+  out << std::setprecision(3);
+  if (h.step == HomingStep::kMarks) {
+    out << "marks still to be seen: joints";
+    for (int i = 0; i < kArmJoints; ++i)
+      if (h.missing >> i & 1) out << ' ' << i + 1;
+    if (h.trouble != HomingTrouble::kNone) out << "; ";
+  }
+  const double degrees = h.value * count_size(Transmission{}) / kDegree;
+  if (h.trouble == HomingTrouble::kMoved) out << joint_words(h.channel) << " moved by " << h.value << " counts";
+  if (h.trouble == HomingTrouble::kDark) out << "no light for " << h.value << " s";
+  if (h.trouble == HomingTrouble::kWrongPose)
+    out << joint_words(h.channel)
+        << (std::abs(h.channel) == kArmJoints - 1 && h.step != HomingStep::kStill ? ": its light is "
+                                                                                  : ": light or mark is ")
+        << h.value << " counts (" << degrees << " deg) wide or off";
+  if (h.trouble == HomingTrouble::kDeadChannel) out << joint_words(h.channel) << " counted nothing while it was turned";
+  if (h.trouble == HomingTrouble::kTimeout) out << "not homed after " << h.value << " s";
+  return out.str();
+}
+
+class HomeBench {
+ public:
+  HomeBench(const HomeOptions& options, DeviceModel model)
+      : options_(options),
+        backend_(make_backend(options.backend, backend_options(options))),
+        loop_(loop_of(model)),
+        patch_(std::make_unique<ContactPatch>()) {
+    if (backend_.world) person_ = std::make_unique<HomingOperator>(*backend_.world, options.seed);
+  }
+
+  HomeOutcome home(std::ostream& out) {
+    HomeOutcome outcome;
+    std::string said;
+    const auto begun = std::chrono::steady_clock::now();
+    const auto most = static_cast<long>(options_.limit_s * kHomeRateHz);
+    long n = 0;
+    for (; n < most && !(options_.interrupted && options_.interrupted()); ++n) {
+      const StylusState& s = tick(outcome);
+      if (!person_) std::this_thread::sleep_until(begun + std::chrono::microseconds(1000 * (n + 1)));
+      const HomingWords words = homing_words(s.loop, s.homing);
+      const std::string now = s.loop == LoopState::kSelfTest ? "Self-test: leave it alone; the deadman open."
+                                                             : std::string(words.title) + ". " + words.hint;
+      const bool begun_now = s.loop == LoopState::kUnhomed && s.homing.step == HomingStep::kNone;
+      if (now != said && s.loop != LoopState::kHomed && s.loop != LoopState::kFault && !begun_now) {
+        said = now;
+        outcome.steps.push_back(now + (homing_detail(s.homing).empty() ? "" : " (" + homing_detail(s.homing) + ")"));
+        if (!options_.json)
+          out << std::fixed << std::setprecision(1) << std::setw(7) << s.t_s << " s  " << outcome.steps.back()
+              << std::endl;
+      }
+      if (s.homing.trouble != HomingTrouble::kNone) outcome.report = s.homing;
+      if (s.loop == LoopState::kHomed || s.loop == LoopState::kFault) break;
+    }
+    const StylusState& s = record_.stylus;
+    outcome.seconds = static_cast<double>(n) / kHomeRateHz;
+    outcome.homed = s.loop == LoopState::kHomed;
+    if (s.fault) outcome.fault = fault_name(s.fault.code);
+    if (!outcome.homed) {
+      if (s.homing.trouble != HomingTrouble::kNone || outcome.report.trouble == HomingTrouble::kNone)
+        outcome.report = s.homing;
+      return outcome;
+    }
+    outcome.report = s.homing;
+    outcome.marks = loop_.homing().marks();
+    outcome.offset = loop_.homing().offset();
+    for (int i = 0; i < kChannels; ++i) outcome.counts[i] = record_.in.counts[static_cast<std::size_t>(i)];
+    if (backend_.world) outcome.error = error();
+    return outcome;
+  }
+
+  /// The stylus is taken out, and everything is forgotten but where the counters stand.
+  void again(const DeviceModel& model) {
+    loop_ = HapticLoop(loop_of(model));
+    if (!backend_.world) return;
+    JointVector out = JointVector::Zero();
+    out[kArmJoints - 2] = 20 * kDegree;
+    backend_.world->lead_arm(out, 1.5);
+    for (int k = 0; k < 1600; ++k) backend_.daq->read();
+  }
+
+ private:
+  static BackendOptions backend_options(const HomeOptions& options) {
+    BackendOptions out;
+    out.card = options.card;
+    out.simulated.rate_hz = kHomeRateHz;
+    out.simulated.seed = options.seed;
+    if (!options.plant.empty()) out.simulated.plant = true_plant(options.plant, options.seed).parameters;
+    if (options.method == "index") {
+      if (!out.simulated.plant) out.simulated.plant = draw_parameters(options.seed);
+      out.simulated.plant->options.encoder.index = 1;
+    }
+    for (const std::string& text : options.injections) out.simulated.faults.push_back(parse_injection(text));
+    return out;
+  }
+  HapticLoopConfig loop_of(const DeviceModel& model) const {
+    HapticLoopConfig config;
+    config.daq = backend_.daq->capabilities();
+    config.device = model;
+    // Where the marks lie is what is to be found: nothing is known of them yet.
+    if (!options_.learn.empty()) config.safety.homing.jig_counts = config.safety.homing.roll_counts = 1e9;
+    return config;
+  }
+  const StylusState& tick(HomeOutcome& outcome) {
+    const DaqSample sample = backend_.daq->read();
+    const DacFrame codes = loop_.tick(sample, *patch_, record_);
+    const bool silent = std::all_of(codes.codes.begin(), codes.codes.end(), [](std::int32_t c) { return c == 0; });
+    outcome.torque_free = outcome.torque_free && silent && !record_.amplifiers_armed;
+    backend_.daq->arm(record_.amplifiers_armed);
+    backend_.daq->write(codes);
+    if (person_ && record_.stylus.loop == LoopState::kUnhomed) person_->follow(record_.stylus.homing);
+    return record_.stylus;
+  }
+  /// Of what the loop takes for its angles, against where the simulated arm truly is, counts.
+  ChannelVector error() const {
+    const HandSense truth = backend_.world->sense();
+    ChannelVector q = record_.q;
+    const JointVector near = q.head<kArmJoints>();
+    if (const auto exact = inverse_within_limits(truth.X_BS, near)) q.head<kArmJoints>() -= *exact;
+    q[kPinchChannel] -= truth.jaw_opening_m;
+    for (int i = 0; i < kChannels; ++i)
+      q[i] /= count_size(loop_.config().device.transmission[static_cast<std::size_t>(i)]);
+    return q;
+  }
+
+  const HomeOptions& options_;
+  Backend backend_;
+  HapticLoop loop_;
+  std::unique_ptr<ContactPatch> patch_;
+  std::unique_ptr<HomingOperator> person_;
+  TickRecord record_;
+};
+
+DeviceModel model_of(const HomeOptions& options) {
+  DeviceModel model = device_model(read_device_files({}, options.device));
+  model.homing.see_dark = true;  // a light that was never dark tells nothing
+  for (std::size_t i = 0; i < kMethods.size(); ++i)
+    if (options.method == kMethods[i]) model.homing.method = static_cast<HomingMethod>(i);
+  return model;
+}
+
+ordered_json channel_list(const ChannelVector& v) {
+  ordered_json list = ordered_json::array();
+  for (int i = 0; i < kChannels; ++i) list.push_back(std::isfinite(v[i]) ? ordered_json(v[i]) : ordered_json(nullptr));
+  return list;
+}
+
+ordered_json home_json(const HomeOutcome& o) {
+  return {{"homed", o.homed},
+          {"seconds", o.seconds},
+          {"torque_free", o.torque_free},
+          {"fault", o.fault.empty() ? ordered_json(nullptr) : ordered_json(o.fault)},
+          {"trouble", static_cast<int>(o.report.trouble)},
+          {"detail", homing_detail(o.report)},
+          {"steps", o.steps},
+          {"error_counts", o.homed ? channel_list(o.error) : ordered_json(nullptr)},
+          {"marks_counts", o.homed ? channel_list(o.marks) : ordered_json(nullptr)}};
+}
+
+/// Mean and spread of the error of each channel over the repeats that were homed.
+void print_errors(const std::vector<HomeOutcome>& all, std::ostream& out) {
+  const double to_deg = count_size(Transmission{}) / kDegree;
+  out << "zero off the truth on the simulated plant, counts (joints: one is " << std::setprecision(4) << to_deg
+      << " deg): mean, spread, worst over the repeats\n";
+  for (int i = 0; i < kChannels; ++i) {
+    double n = 0, sum = 0, squares = 0, worst = 0;
+    for (const HomeOutcome& o : all) {
+      if (!o.homed) continue;
+      ++n, sum += o.error[i], squares += o.error[i] * o.error[i], worst = std::max(worst, std::abs(o.error[i]));
+    }
+    if (n == 0) continue;
+    const double mean = sum / n, spread = std::sqrt(std::max(0.0, squares / n - mean * mean));
+    out << "  " << std::left << std::setw(10) << joint_words(i) << std::right << std::fixed << std::setprecision(2)
+        << std::setw(9) << mean << std::setw(9) << spread << std::setw(9) << worst << '\n';
+  }
+}
+
+/// Places of the marks from home, by the counters alone: `marks` where they were passed, `home` where the jig and the
+/// edges of its light put the zero.
+ChannelVector places_from_home(const HomeOutcome& marks, const HomeOutcome& home) {
+  const ChannelVector mark = marks.counts - marks.offset + marks.marks, zero = home.counts - home.offset;
+  ChannelVector out = mark - zero;
+  for (int i = 0; i < kArmJoints; ++i) out[i] = std::remainder(out[i], HomingLimits{}.index_turn);
+  return out;
+}
+
+/// Mean over the repeats: what the index method needs to know.
+void write_marks(const HomeOptions& options, DeviceModel model, const std::vector<ChannelVector>& places) {
+  for (int i = 0; i < kArmJoints; ++i) {
+    double sum = 0;
+    for (const ChannelVector& p : places)  // near half a turn the nearest mark may be that of either side
+      sum += places.front()[i] + std::remainder(p[i] - places.front()[i], HomingLimits{}.index_turn);
+    model.homing.index_counts[static_cast<std::size_t>(i)] =
+        static_cast<std::int32_t>(std::lround(sum / static_cast<double>(places.size())));
+  }
+  model.homing.method = HomingMethod::kIndex;
+  write_file(options.learn, device_toml(model, "Marks of the encoders, learnt in the jig by trocar device home."));
+}
+
+}  // namespace
+
+std::vector<HomeOutcome> home_device(const HomeOptions& options, std::ostream& out) {
+  DeviceModel model = model_of(options);
+  const bool learns = !options.learn.empty();
+  if (learns && model.homing.method != HomingMethod::kIndex)
+    throw InputError("--learn: needs --method index, and encoders whose index is wired");
+  HomeBench bench(options, model);
+  DeviceModel by_edges = model;
+  by_edges.homing.method = HomingMethod::kEdges;
+  std::vector<HomeOutcome> all;
+  std::vector<ChannelVector> places;
+  for (int k = 0; k < options.repeat; ++k) {
+    if (k > 0) bench.again(model);
+    all.push_back(bench.home(out));
+    if (!all.back().homed) return all;
+    if (!learns) continue;
+    const HomeOutcome marks = all.back();
+    bench.again(by_edges);
+    all.back() = bench.home(out);
+    if (!all.back().homed) return all;
+    places.push_back(places_from_home(marks, all.back()));
+  }
+  if (learns) write_marks(options, model, places);
+  return all;
+}
+
+int device_home(const HomeOptions& given, std::ostream& out, std::ostream& err) {
+  HomeOptions options = given;
+  InterruptWatch interrupt;
+  if (!options.interrupted) options.interrupted = [&] { return interrupt.seen(); };
+  const std::vector<HomeOutcome> all = home_device(options, out);
+  const HomeOutcome& last = all.back();
+  if (options.json) {
+    ordered_json list = ordered_json::array();
+    for (const HomeOutcome& o : all) list.push_back(home_json(o));
+    out << ordered_json{{"backend", options.backend}, {"homings", list}}.dump(2) << '\n';
+  } else if (last.homed && backend_abilities(options.backend).pace) {
+    print_errors(all, out);
+  }
+  if (last.homed)
+    err << "trocar: homed " << all.size() << " times on " << options.backend << ", the last in " << last.seconds
+        << " s, torque off throughout\n";
+  else
+    err << "trocar: not homed on " << options.backend << " after " << last.seconds << " s: "
+        << (!last.fault.empty() ? "fault " + last.fault
+            : homing_detail(last.report).empty()
+                ? std::string(homing_words(LoopState::kUnhomed, last.report).title) + ". " +
+                      homing_words(LoopState::kUnhomed, last.report).hint
+                : homing_words(LoopState::kUnhomed, last.report).hint + (" " + homing_detail(last.report)))
+        << '\n';
+  return last.homed ? 0 : kNotHomed;
+}
+
+void add_device_home(CLI::App& parent, CommandAction& chosen) {
+  const auto given = std::make_shared<HomeOptions>();
+  HomeOptions& o = *given;
+  CLI::App* home = add_command(parent, "home", "Home the device, torque off, and say what to do next; 4 when it is not",
+                               chosen, [given] { return device_home(*given, std::cout, std::cerr); });
+  home->add_option("--backend", o.backend, "Device: simulated, hostmot2, hostmot2-fake, mc4000 or mc4000-emulated")
+      ->capture_default_str()
+      ->check(CLI::IsMember(
+          {kSimulatedBackend, kHostmot2Backend, kFakeHostmot2Backend, kMc4000Backend, kEmulatedMc4000Backend}));
+  home->add_option("--card", o.card, kCardForms);
+  home->add_option("--method", o.method,
+                   "Zero from the light, its edges, or the encoders' index (default: device file's)")
+      ->check(CLI::IsMember(kMethods));
+  home->add_option("--device", o.device, "Device file: method and places of the marks")->check(file_name());
+  home->add_option("--learn", o.learn, "Device file to write with the places of the marks, learnt in the jig")
+      ->check(writable_path());
+  home->add_option("--repeat", o.repeat, "Homings, the stylus out of the jig in between")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  home->add_option("--limit", o.limit_s, "Seconds for each")->capture_default_str()->check(CLI::Range(1.0, 3600.0));
+  home->add_option("--seed", o.seed, "Of the simulated device and its person")
+      ->capture_default_str()
+      ->check(seed_range());
+  home->add_option("--plant", o.plant, "Plant file of the simulated device, instead of the seed's")->check(file_name());
+  home->add_option("--inject", o.injections, "Device fault as in run, repeatable: beam-dark@0, beam-lit@0, ...");
+  home->add_flag("--json", o.json, "As JSON");
+}
+
+}  // namespace trocar

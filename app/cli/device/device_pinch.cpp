@@ -1,0 +1,226 @@
+// `trocar device pinch`: two points of the pinch's slide, closed and open, and where the jig holds it; torque zero.
+//
+// Behind a back-end with a simulated device a simulated hand does what is said, and how far the openings are off the
+// truth is measured; a real one is paced by the clock. Thread: one.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/command.h"
+#include "app/session/interrupt.h"
+#include "app/session/setup/device_files.h"
+#include "app/session/setup/true_plant.h"
+#include "haptics/device/backends/make_backend.h"
+#include "haptics/device/transmission.h"
+#include "haptics/input_error.h"
+#include "scenarios/files/device_file.h"
+#include "trainees/files/write_file.h"
+
+namespace trocar {
+namespace {
+
+constexpr double kPinchRateHz = 1000;
+constexpr double kHeld_s = 1.0;      // still at an end before it counts
+constexpr std::int32_t kMoved = 50;  // counts from the last point
+constexpr int kNotFound = 4;
+constexpr double kBeyond_m = 0.004;  // that the simulated fingers press beyond an end
+
+struct PinchCommand {
+  std::string backend = kSimulatedBackend, card = {}, design = "geared";
+  double travel_m = 0.030, ratio_m = 0, most_n = 10, limit_s = 60;
+  int noise = 0;
+  std::uint64_t seed = 1;
+  std::filesystem::path plant = {}, out = {};
+  bool json = false;
+};
+
+struct PinchPoint {
+  const char* words;
+  double finger_m;  ///< where the simulated hand holds it, of the travel: 0 closed, 1 open
+};
+constexpr std::array kPoints{PinchPoint{"Close the pinch as far as it goes, and hold it", 0},
+                             PinchPoint{"Open it as far as it goes, and hold it", 1},
+                             PinchPoint{"Lay its jaws on the block of the jig, and hold them", -1}};
+
+class PinchBench {
+ public:
+  explicit PinchBench(const PinchCommand& options)
+      : options_(options), backend_(make_backend(options.backend, made(options))) {
+    if (!backend_.world) return;
+    rest_ = backend_.world->sense();
+    goal_ = rest_.jaw_opening_m;
+    for (int k = 0; k < 100; ++k) tick(true);  // the jig opens; codes are zero
+  }
+  ~PinchBench() {
+    backend_.daq->write({});
+    backend_.daq->arm(false);
+  }
+
+  /// Mean count where it is held. Empty: not found in time.
+  std::optional<double> find(const PinchPoint& point, const std::optional<double>& last) {
+    double sum = 0;
+    long held = 0;
+    std::int32_t from = count_;
+    const auto begun = std::chrono::steady_clock::now();
+    for (long n = 0; n < static_cast<long>(options_.limit_s * kPinchRateHz) && !interrupt_.seen(); ++n) {
+      move(point);
+      tick(backend_.world != nullptr);
+      if (!backend_.world) std::this_thread::sleep_until(begun + std::chrono::microseconds(1000 * (n + 1)));
+      const bool rests = std::abs(count_ - from) <= options_.noise + 1;
+      const bool elsewhere = !last || std::abs(count_ - *last) >= kMoved;
+      if (!rests || !elsewhere) {
+        from = count_;
+        held = 0, sum = 0;
+        continue;
+      }
+      sum += count_, ++held;
+      if (static_cast<double>(held) >= kHeld_s * kPinchRateHz) return sum / static_cast<double>(held);
+    }
+    return std::nullopt;
+  }
+  std::optional<double> truth() const {
+    return backend_.world ? std::optional(backend_.world->sense().jaw_opening_m) : std::nullopt;
+  }
+
+ private:
+  static BackendOptions made(const PinchCommand& o) {
+    BackendOptions out;
+    out.card = o.card;
+    out.simulated.rate_hz = kPinchRateHz;
+    out.simulated.seed = o.seed;
+    out.simulated.hand.tremor_m = 0;
+    if (!o.plant.empty()) out.simulated.plant = true_plant(o.plant, o.seed).parameters;
+    return out;
+  }
+  void move(const PinchPoint& point) {
+    if (!backend_.world) return;
+    const double to = point.finger_m < 0    ? rest_.jaw_opening_m
+                      : point.finger_m == 0 ? -kBeyond_m
+                                            : options_.travel_m + kBeyond_m;
+    goal_ += std::clamp(to - goal_, -2e-5, 2e-5);  // 20 mm/s
+  }
+  void tick(bool armed) {
+    if (backend_.world) backend_.world->set_hand_intent(rest_.X_BS, goal_);
+    count_ = backend_.daq->read().counts[kPinchChannel];
+    backend_.daq->arm(armed);
+    backend_.daq->write({});
+  }
+
+  const PinchCommand& options_;
+  InterruptWatch interrupt_;
+  Backend backend_;
+  HandSense rest_;
+  double goal_ = 0;
+  std::int32_t count_ = 0;
+};
+
+int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& err) {
+  PinchBench bench(options);
+  std::array<double, kPoints.size()> counts{};
+  std::array<std::optional<double>, kPoints.size()> truth;
+  std::optional<double> last;
+  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+    if (!options.json) out << kPoints[i].words << std::endl;
+    last = bench.find(kPoints[i], last);
+    if (!last) {
+      err << "trocar: " << kPoints[i].words << ": not seen within " << options.limit_s << " s; it must rest for "
+          << kHeld_s << " s, and lie " << kMoved << " counts from the point before\n";
+      return kNotFound;
+    }
+    counts[i] = *last, truth[i] = bench.truth();
+  }
+  const double span = counts[1] - counts[0];
+  if (span < 0)
+    throw InputError("the pinch counts down as it opens (" + std::to_string(std::lround(counts[0])) + " to " +
+                     std::to_string(std::lround(counts[1])) +
+                     "): swap A and B of its encoder, or the ends of its potentiometer");
+  DeviceModel model;
+  Transmission& t = model.transmission[kPinchChannel];
+  model.pinch.design = options.design == "potentiometer" ? PinchDesign::kPotentiometer : PinchDesign::kGeared;
+  model.pinch.noise_counts = options.noise;
+  model.pinch_travel_m = options.travel_m;
+  model.pinch_home_m = std::clamp((counts[2] - counts[0]) / span, 0.0, 1.0) * options.travel_m;
+  if (options.ratio_m > 0) t.ratio = options.ratio_m;
+  t.counts_per_turn = 2 * std::numbers::pi * t.ratio * span / options.travel_m;
+  t.max_motor_torque = options.most_n * t.ratio;
+  const double count_mm = 1e3 * options.travel_m / span;
+  double worst = 0;
+  for (std::size_t i = 0; i < kPoints.size(); ++i)
+    if (truth[i]) worst = std::max(worst, std::abs((counts[i] - counts[0]) * count_mm * 1e-3 - *truth[i]));
+  const double angle = 2 * std::asin(options.travel_m / 2 / model.pinch.jaw_length_m) * 180 / std::numbers::pi;
+  if (options.json) {
+    out << nlohmann::ordered_json{{"backend", options.backend},
+                                  {"design", options.design},
+                                  {"closed_counts", counts[0]},
+                                  {"open_counts", counts[1]},
+                                  {"count_mm", count_mm},
+                                  {"home_mm", 1e3 * model.pinch_home_m},
+                                  {"open_deg", angle},
+                                  {"worst_error_mm", truth[0] ? nlohmann::ordered_json(1e3 * worst) : nullptr}}
+               .dump(2)
+        << '\n';
+  } else {
+    out << std::fixed << std::setprecision(0) << span << " counts from closed to open, one is " << std::setprecision(4)
+        << count_mm << " mm; the jig holds it at " << std::setprecision(2) << 1e3 * model.pinch_home_m
+        << " mm; jaws of 20 mm open by " << std::setprecision(1) << angle << " deg\n";
+    if (truth[0])
+      out << "off the truth on the simulated plant by at most " << std::setprecision(3) << 1e3 * worst << " mm\n";
+  }
+  if (!options.out.empty()) {
+    write_file(
+        options.out,
+        device_toml(
+            model,
+            "Two points of the pinch, by trocar device pinch.\nclosed_counts is 0: the loop counts from the jig."));
+    err << "trocar: device file " << options.out.string() << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_device_pinch(CLI::App& parent, CommandAction& chosen) {
+  const auto given = std::make_shared<PinchCommand>();
+  PinchCommand& o = *given;
+  CLI::App* pinch = add_command(parent, "pinch", "Two points of the pinch's slide as a device file, torque zero",
+                                chosen, [given] { return device_pinch(*given, std::cout, std::cerr); });
+  pinch->add_option("--backend", o.backend, "Device: simulated, hostmot2, hostmot2-fake, mc4000 or mc4000-emulated")
+      ->capture_default_str()
+      ->check(CLI::IsMember(
+          {kSimulatedBackend, kHostmot2Backend, kFakeHostmot2Backend, kMc4000Backend, kEmulatedMc4000Backend}));
+  pinch->add_option("--card", o.card, kCardForms);
+  pinch->add_option("--design", o.design, "Of thesis 5.2: geared, or potentiometer")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"geared", "potentiometer"}));
+  pinch->add_option("--travel", o.travel_m, "Of the slide, closed to open, measured, m")
+      ->capture_default_str()
+      ->check(CLI::Range(0.002, 0.039));
+  pinch->add_option("--ratio", o.ratio_m, "Slide a motor radian, m (default: 0.008)")->check(CLI::Range(1e-4, 0.1));
+  pinch->add_option("--most", o.most_n, "Most force at the slide, N")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 100.0));
+  pinch->add_option("--noise", o.noise, "Counts that a potentiometer trembles by at rest")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  pinch->add_option("--limit", o.limit_s, "Seconds for each point")
+      ->capture_default_str()
+      ->check(CLI::Range(2.0, 3600.0));
+  pinch->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
+  pinch->add_option("--plant", o.plant, "Plant file of the simulated device, instead of the seed's")
+      ->check(file_name());
+  pinch->add_option("--out", o.out, "Device file (TOML) to write")->check(writable_path());
+  pinch->add_flag("--json", o.json, "As JSON");
+}
+
+}  // namespace trocar
