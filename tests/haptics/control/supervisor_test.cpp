@@ -204,7 +204,8 @@ constexpr std::array kAllFaults{FaultCode::kNone,          FaultCode::kEncoderJu
                                 FaultCode::kEnergyDebt,    FaultCode::kOverheat,    FaultCode::kLateLoop,
                                 FaultCode::kHandNonFinite, FaultCode::kSelfTest,    FaultCode::kEncoderStuck,
                                 FaultCode::kSensorSilent,  FaultCode::kDacMismatch, FaultCode::kWatchdog,
-                                FaultCode::kEmergencyStop, FaultCode::kDriveFault,  FaultCode::kDriveHot};
+                                FaultCode::kEmergencyStop, FaultCode::kDriveFault,  FaultCode::kDriveHot,
+                                FaultCode::kStalePatch};
 
 TEST_F(SupervisorTest, HardFaultsDisarmAtOnceSoftOnesFadeInTwentyMilliseconds) {
   for (const FaultCode code : kAllFaults) {
