@@ -87,8 +87,9 @@ std::array<std::int32_t, kChannels> count_limits(const HapticLoopConfig& config)
 bool is_sound(const ContactPatch& patch, bool triangles) {
   if (patch.count < 0 || patch.count > kMaxPatchTriangles) return false;
   if (patch.vertex_count < 0 || patch.vertex_count > kMaxPatchVertices) return false;
-  double sum = patch.glide_s + patch.given_j + patch.reach_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m + (patch.held.from_I + patch.held.to_I).sum() +
-               patch.held.radius_m + (patch.hold.point_I + patch.hold.anchor_T).sum() + patch.hold.stiffness_n_per_m;
+  double sum = patch.glide_s + patch.given_j + patch.reach_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m +
+               (patch.held.from_I + patch.held.to_I).sum() + patch.held.radius_m +
+               (patch.hold.point_I + patch.hold.anchor_T).sum() + patch.hold.stiffness_n_per_m;
   for (const ContactMaterial& m : patch.material) {
     sum += m.stiffness_n_per_m + m.damping_s_per_m + m.mu_static + m.mu_dynamic + m.stribeck_m_s;
   }

@@ -154,7 +154,7 @@ class HapticLoop {
   TorqueHistory asked_contact_;  ///< of the ticks past: acts after the known delay
   SubCountTravel fine_;
   SmoothedRates friction_rates_;
-  double last_port_j_ = 0;   ///< energy in the port's springs one tick ago
+  double last_port_j_ = 0;                    ///< energy in the port's springs one tick ago
   bool arm_waits_ = true, jaws_wait_ = true;  ///< since ACTIVE, until their force has been small once
   double patch_age_s_ = 0;                    ///< since a new patch came, or since ACTIVE
 };

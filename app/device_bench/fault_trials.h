@@ -24,8 +24,8 @@ struct FaultTrial {
   std::string failure = {};  ///< empty: as it should be
 };
 
-/// @param backend one of simulated_board_names(). @param device its faults are not asked for. @throws InputError: another
-/// back-end; as the board.
+/// @param backend one of simulated_board_names(). @param device its faults are not asked for. @throws InputError:
+/// another back-end; as the board.
 std::vector<FaultTrial> try_faults(const std::string& backend, const SimulatedDaqConfig& device);
 
 }  // namespace trocar

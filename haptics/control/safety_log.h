@@ -3,8 +3,8 @@
 // Ticks go into a bank, a ring of 2 s. Shortly after a change of state the bank is closed and the next one begins, so
 // that the banks together hold at least 2 s before each of the latest changes without anything being copied in the
 // tick. The oldest bank is used again; that of a fault stays closed, and the log stands still, until the operator's
-// reset. A reset that ends in another fault within its tick is a change too. All memory is taken in the constructor; add() allocates nothing. Thread: haptic task; read it when the loop
-// does not run.
+// reset. A reset that ends in another fault within its tick is a change too. All memory is taken in the constructor;
+// add() allocates nothing. Thread: haptic task; read it when the loop does not run.
 #pragma once
 
 #include <array>

@@ -18,10 +18,9 @@ enum class LoopWarning : std::uint8_t {
   kContactWaits,    ///< armed within the tissue: no contact force until it would be small once
 };
 
-inline constexpr std::array kLoopWarnings{LoopWarning::kEncoderStuck, LoopWarning::kHotMotor,
-                                          LoopWarning::kNearSingular, LoopWarning::kForceSaturated,
-                                          LoopWarning::kEnergyDebt,   LoopWarning::kOverspeed,
-                                          LoopWarning::kStalePatch,   LoopWarning::kContactWaits};
+inline constexpr std::array kLoopWarnings{
+    LoopWarning::kEncoderStuck, LoopWarning::kHotMotor,  LoopWarning::kNearSingular, LoopWarning::kForceSaturated,
+    LoopWarning::kEnergyDebt,   LoopWarning::kOverspeed, LoopWarning::kStalePatch,   LoopWarning::kContactWaits};
 
 using WarningBits = std::uint16_t;
 

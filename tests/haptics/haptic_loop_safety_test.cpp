@@ -33,9 +33,7 @@ class MovingRig : public LoopRig {
       tick();
     }
   }
-  double load() const {
-    return daq.plant().motor_loads().cwiseAbs().maxCoeff();
-  }
+  double load() const { return daq.plant().motor_loads().cwiseAbs().maxCoeff(); }
   Pose rest;
 
   static SimulatedDaqConfig device_with(const InjectedFault& fault, bool readback) {

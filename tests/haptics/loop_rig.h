@@ -19,10 +19,7 @@ inline Pose working_pose() { return arm_state(degrees(45, 45, 45, -60, -75, 0)).
 class LoopRig {
  public:
   explicit LoopRig(const SimulatedDaqConfig& device = {}, const HapticLoopConfig& loop_config = {})
-      : daq(quiet(device)),
-        config(matched(loop_config, daq)),
-        loop(config),
-        patch(std::make_unique<ContactPatch>()) {
+      : daq(quiet(device)), config(matched(loop_config, daq)), loop(config), patch(std::make_unique<ContactPatch>()) {
     goal = daq.sense().X_BS;
   }
 

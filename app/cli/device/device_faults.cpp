@@ -49,8 +49,14 @@ int device_faults(const FaultsOptions& o, std::ostream& out, std::ostream& err) 
     out << faults_json(trials, o, failed == 0).dump(2) << '\n';
   } else {
     using enum TextTable::Align;
-    TextTable table({{"fault"}, {"reaction"}, {"cause"}, {"channel", kRight}, {"seen, ticks", kRight},
-                     {"zero torque, ticks", kRight}, {"limit", kRight}, {"outcome"}});
+    TextTable table({{"fault"},
+                     {"reaction"},
+                     {"cause"},
+                     {"channel", kRight},
+                     {"seen, ticks", kRight},
+                     {"zero torque, ticks", kRight},
+                     {"limit", kRight},
+                     {"outcome"}});
     for (const FaultTrial& t : trials)
       table.add({t.fault, t.reaction, t.cause, t.channel < 0 ? "-" : std::to_string(t.channel),
                  std::to_string(t.seen_ticks), std::to_string(t.off_ticks), std::to_string(t.limit_ticks),
@@ -67,8 +73,9 @@ int device_faults(const FaultsOptions& o, std::ostream& out, std::ostream& err) 
 void add_device_faults(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<FaultsOptions>();
   FaultsOptions& o = *given;
-  CLI::App* faults = add_command(parent, "faults", "Every fault of a back-end, and the ticks until no motor has current",
-                                 chosen, [given] { return device_faults(*given, std::cout, std::cerr); });
+  CLI::App* faults =
+      add_command(parent, "faults", "Every fault of a back-end, and the ticks until no motor has current", chosen,
+                  [given] { return device_faults(*given, std::cout, std::cerr); });
   faults->add_flag("--json", o.json, "As JSON");
   faults->add_option("--backend", o.backend, "What it is done on, with the simulated device behind it")
       ->capture_default_str()

@@ -35,7 +35,7 @@ std::filesystem::path safety_file(const StopOptions& o, std::ostream& err) {
 std::string input_words(const std::string& bits_text) {
   const auto bits = static_cast<std::uint32_t>(std::stoul(bits_text));
   constexpr std::pair<std::uint32_t, const char*> kNames[] = {
-      {kDeadman, "deadman"},   {kHomeBeam, "beam"},   {kHandFault, "hand-fault"}, {kEmergencyStop, "stop"},
+      {kDeadman, "deadman"},        {kHomeBeam, "beam"}, {kHandFault, "hand-fault"}, {kEmergencyStop, "stop"},
       {kWatchdogFired, "watchdog"}, {kClutch, "clutch"}, {kPedal, "pedal"},          {kExchange, "exchange"}};
   std::string out;
   const auto add = [&](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
@@ -92,13 +92,13 @@ int device_stop(const StopOptions& o, std::ostream& out, std::ostream& err) {
       return 0;
     }
     using enum TextTable::Align;
-    TextTable changes({{"period", kRight}, {"t, s", kRight}, {"from"}, {"to"}, {"cause"}, {"channel", kRight},
-                       {"value", kRight}});
+    TextTable changes(
+        {{"period", kRight}, {"t, s", kRight}, {"from"}, {"to"}, {"cause"}, {"channel", kRight}, {"value", kRight}});
     for (const SafetyFile::Fields& change : stop.changes) changes.add(change);
     changes.print(out);
     out << '\n';
-    TextTable ticks({{"period", kRight}, {"state"}, {"valid", kRight}, {"periods", kRight}, {"inputs"}, {"counts"},
-                     {"codes"}});
+    TextTable ticks(
+        {{"period", kRight}, {"state"}, {"valid", kRight}, {"periods", kRight}, {"inputs"}, {"counts"}, {"codes"}});
     for (const SafetyFile::Fields& row : rows_before(stop, o.ticks))
       ticks.add({row[0], row[1], row[3], row[4], input_words(row[5]), joined(row, 6), joined(row, 6 + kChannels)});
     ticks.print(out);
@@ -114,9 +114,8 @@ int device_stop(const StopOptions& o, std::ostream& out, std::ostream& err) {
 void add_device_stop(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<StopOptions>();
   StopOptions& o = *given;
-  CLI::App* stop =
-      add_command(parent, "stop", "Why the torque went off in an attempt, and the last ticks before it", chosen,
-                  [given] { return device_stop(*given, std::cout, std::cerr); });
+  CLI::App* stop = add_command(parent, "stop", "Why the torque went off in an attempt, and the last ticks before it",
+                               chosen, [given] { return device_stop(*given, std::cout, std::cerr); });
   stop->add_option("attempt", o.subject, "Attempt (UUID part, 'latest'), recording, or its .safety.csv")->required();
   stop->add_option("--ticks", o.ticks, "Of the last ones")->capture_default_str()->check(CLI::Range(1, 100000));
   stop->add_option("--db", o.database, "Database file");

@@ -86,9 +86,17 @@ constexpr BackendKind kBackends[] = {
     {kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend<kSimulatedBackend>},
     {kPointerBackend, 16, false, {.pause = true, .pace = true}, pointer_backend},
     {kHostmot2Backend, hostmot2::kPdmBits + 1, true, {}, hostmot2_backend},
-    {kFakeHostmot2Backend, hostmot2::kPdmBits + 1, true, {.pause = true, .pace = true}, simulated_backend<kFakeHostmot2Backend>},
+    {kFakeHostmot2Backend,
+     hostmot2::kPdmBits + 1,
+     true,
+     {.pause = true, .pace = true},
+     simulated_backend<kFakeHostmot2Backend>},
     {kMc4000Backend, Mc4000Map{}.dac_bits, true, {}, mc4000_backend},
-    {kEmulatedMc4000Backend, Mc4000Map{}.dac_bits, true, {.pause = true, .pace = true}, simulated_backend<kEmulatedMc4000Backend>}};
+    {kEmulatedMc4000Backend,
+     Mc4000Map{}.dac_bits,
+     true,
+     {.pause = true, .pace = true},
+     simulated_backend<kEmulatedMc4000Backend>}};
 
 const BackendKind& backend_kind(const std::string& name) {
   std::string known;

@@ -134,7 +134,7 @@ DaqSample Mc4000Daq::read() noexcept {
     const std::uint32_t seen = flags[static_cast<std::size_t>(kMc4000Axes[i].board)];
     if (seen != kNobody && (seen & map.flag_sync) && !(board.read(decoder(i, map.decoder_mode)) & map.mode_error))
       out.valid = static_cast<std::uint8_t>(out.valid | 1U << i);
-    if (armed_ && sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
+    if (armed_ && seen != kNobody && sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
       out.digital_in |= kDacMismatch << i;
   }
   const bool fired = ((flags[0] | (flags[1] == kNobody ? 0 : flags[1])) & map.flag_watchdog) != 0;

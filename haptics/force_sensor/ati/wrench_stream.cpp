@@ -62,7 +62,8 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
 
 ForceSample WrenchStream::sample(const Vec3& /*acting*/) {
   const WrenchRecord& record = newest_.read();
-  const bool fresh = record.number > 0 && static_cast<double>(options_.now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
+  const bool fresh =
+      record.number > 0 && static_cast<double>(options_.now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
   return {.number = ++sampled_, .force = record.force_n, .valid = fresh && record.sound};
 }
 

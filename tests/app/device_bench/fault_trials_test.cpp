@@ -27,9 +27,9 @@ TEST_P(FaultTrials, TorqueGoesInTimeAndTheFirstCauseStays) {
                 t.reaction.c_str(), t.cause.c_str(), t.seen_ticks, t.off_ticks, t.limit_ticks);
   }
   EXPECT_EQ(names.size(), trials.size()) << "one line a fault";
-  for (const char* asked : {"encoder-jump", "encoder-stuck", "dead-channel", "sensor-silent", "patch-not-a-number",
-                            "stale-patch", "late-loop", "overspeed", "overheat", "emergency-stop", "deadman-open",
-                            "watchdog", "drive-fault", "drive-hot"})
+  for (const char* asked :
+       {"encoder-jump", "encoder-stuck", "dead-channel", "sensor-silent", "patch-not-a-number", "stale-patch",
+        "late-loop", "overspeed", "overheat", "emergency-stop", "deadman-open", "watchdog", "drive-fault", "drive-hot"})
     EXPECT_TRUE(names.contains(asked)) << asked;
   if (GetParam() != kSimulatedBackend) {
     EXPECT_TRUE(names.contains("board-gone"));

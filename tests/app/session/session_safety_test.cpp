@@ -133,7 +133,8 @@ TEST(SafetyFile, LiesBesideTheRecordingAndIsNeverWrittenInSilence) {
   ASSERT_EQ(back.rows.size(), 1U);
   EXPECT_EQ(back.columns.back(), "code6");
   EXPECT_EQ(back.rows[0].back(), "-3");
-  for (const std::string& wrong : {std::string(), csv.substr(0, csv.size() - 5), std::string("a,b\n1,2\n"), csv + "7\n"}) {
+  for (const std::string& wrong :
+       {std::string(), csv.substr(0, csv.size() - 5), std::string("a,b\n1,2\n"), csv + "7\n"}) {
     std::filesystem::remove(folder / "y.csv");
     write_safety_file(folder / "y.csv", wrong);
     EXPECT_THROW(read_safety_file(folder / "y.csv"), InputError) << wrong.substr(0, 40);

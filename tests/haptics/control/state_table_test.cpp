@@ -58,7 +58,11 @@ TEST_F(StateTable, IsAsTheDesignHasIt) {
       {"0.8 s of the beam", [&] { steps(800, kHomeBeam); }, "HHHHHHF"},
       {"30 ms of the deadman", [&] { steps(30, kDeadman); }, "TTUAAAF"},
       {"11 s of a deadman never opened", [&] { steps(11000, kDeadman); }, "FUUAAAF"},
-      {"an encoder counts", [&] { step(kDeadman, {0, 0, 0, 1, 0, 0, 0}); }, "TTURRAF"},
+      {"an encoder counts",
+       [&] {
+         step(kDeadman, {0, 0, 0, 1, 0, 0, 0});
+       },
+       "TTURRAF"},
       {"emergency stop", [&] { step(kDeadman | kEmergencyStop); }, "FFFFFFF"},
       {"watchdog", [&] { step(kDeadman | kWatchdogFired); }, "FFFFFFF"},
       {"drive fault", [&] { step(kDeadman | kDriveFault << 2); }, "FFFFFFF"},
@@ -89,10 +93,10 @@ TEST_F(StateTable, IsAsTheDesignHasIt) {
 
 TEST_F(StateTable, ARandomWalkNeverLeavesIt) {
   using L = LoopState;
-  const std::set<std::pair<L, L>> ways{{L::kOff, L::kSelfTest},    {L::kSelfTest, L::kUnhomed}, {L::kUnhomed, L::kHomed},
-                                       {L::kHomed, L::kArmed},     {L::kArmed, L::kActive},     {L::kArmed, L::kHomed},
-                                       {L::kActive, L::kHomed},    {L::kOff, L::kFault},        {L::kSelfTest, L::kFault},
-                                       {L::kUnhomed, L::kFault},   {L::kHomed, L::kFault},      {L::kArmed, L::kFault},
+  const std::set<std::pair<L, L>> ways{{L::kOff, L::kSelfTest},  {L::kSelfTest, L::kUnhomed}, {L::kUnhomed, L::kHomed},
+                                       {L::kHomed, L::kArmed},   {L::kArmed, L::kActive},     {L::kArmed, L::kHomed},
+                                       {L::kActive, L::kHomed},  {L::kOff, L::kFault},        {L::kSelfTest, L::kFault},
+                                       {L::kUnhomed, L::kFault}, {L::kHomed, L::kFault},      {L::kArmed, L::kFault},
                                        {L::kActive, L::kFault}};
   Random random(11);
   supervisor = Supervisor(SafetyLimits{}, kMaxCounts, kPeriod);

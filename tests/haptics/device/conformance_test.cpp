@@ -66,9 +66,7 @@ class Conformance : public testing::TestWithParam<std::string> {
     return {*board.daq, MovingHand(*board.world), [looked] { return looked(&DevicePlant::outputs); },
             [looked] { return looked(&DevicePlant::motor_loads); }};
   }
-  static double load(const SimulatedBoard& board) {
-    return under_test(board).motor_loads().cwiseAbs().maxCoeff();
-  }
+  static double load(const SimulatedBoard& board) { return under_test(board).motor_loads().cwiseAbs().maxCoeff(); }
 };
 
 TEST_P(Conformance, SaysWhoItIs) {

@@ -21,12 +21,13 @@ constexpr double kBetween_s = 8, kAnswer_s = 0.003;
 /// A trouble every few seconds, each of some length; which of the device's kinds it is, is drawn.
 std::vector<InjectedFault> faults_of(double seconds, Random& random) {
   using K = InjectedFaultKind;
-  constexpr K kKinds[] = {K::kEncoderJump,   K::kEncoderStuck,    K::kChannelInvalid, K::kDacStuck,   K::kMissedSync,
-                          K::kHandNaN,       K::kEmergencyStop,   K::kDeadmanOpen,    K::kDriveFault, K::kWatchdog,
+  constexpr K kKinds[] = {K::kEncoderJump,     K::kEncoderStuck,  K::kChannelInvalid, K::kDacStuck,   K::kMissedSync,
+                          K::kHandNaN,         K::kEmergencyStop, K::kDeadmanOpen,    K::kDriveFault, K::kWatchdog,
                           K::kOverTemperature, K::kSensorSilence, K::kDelay};
   std::vector<InjectedFault> out;
   for (double at = 6; at < seconds; at += kBetween_s + random.between(0, 4)) {
-    InjectedFault f{kKinds[random.below(std::size(kKinds))], at, random.between(0.005, 0.3), random.below(kChannels), 0};
+    InjectedFault f{kKinds[random.below(std::size(kKinds))], at, random.between(0.005, 0.3), random.below(kChannels),
+                    0};
     f.value = f.kind == K::kEncoderJump ? 60 + random.below(2000) : 1 + random.below(30);
     out.push_back(f);
   }
@@ -38,10 +39,17 @@ class Hour : public testing::TestWithParam<std::string> {
   /// Troubles of the board itself, from a tick on.
   void board_trouble(Random& random) {
     if (board.card) {
-      const CardTroubles kinds[] = {{.loses_questions = 0.3}, {.loses_answers = 0.5}, {.repeats = 0.7},
-                                    {.swaps = 0.4},           {.cuts = 0.3},          {.babbles = 0.9},
-                                    {.silent = true},         {.frozen = true},       {.lies = true},
-                                    {.no_kicks = true},       {.quadrature_errors = 1 << random.below(kChannels)}};
+      const CardTroubles kinds[] = {{.loses_questions = 0.3},
+                                    {.loses_answers = 0.5},
+                                    {.repeats = 0.7},
+                                    {.swaps = 0.4},
+                                    {.cuts = 0.3},
+                                    {.babbles = 0.9},
+                                    {.silent = true},
+                                    {.frozen = true},
+                                    {.lies = true},
+                                    {.no_kicks = true},
+                                    {.quadrature_errors = 1 << random.below(kChannels)}};
       CardTroubles drawn = kinds[random.below(std::size(kinds))];
       drawn.seed = static_cast<std::uint64_t>(random.below(1000));
       silent = drawn.silent;
@@ -145,7 +153,9 @@ TEST_P(Hour, EveryTroubleTakesTheTorqueAndTheArmWorksAgainAfterIt) {
     }
     hard_ticks = record.amplifiers_armed ? 0 : hard_ticks + 1;
     if (hard_ticks >= (reached ? 2 : 20)) {
-      ASSERT_EQ(load(), 0) << "tick " << k << ", " << fault_name(record.stylus.fault.code);
+      // Amplifiers of a board that nobody reaches stay on behind converters at zero: their offsets are left.
+      ASSERT_LE(load(), reached ? 0 : 0.02) << "tick " << k << ", " << fault_name(record.stylus.fault.code) << " for "
+                                            << hard_ticks << ", trouble until " << trouble_ends;
     }
     activations += now == LoopState::kActive && before != LoopState::kActive;
     faults += now == LoopState::kFault && before != LoopState::kFault;

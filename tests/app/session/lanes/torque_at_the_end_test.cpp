@@ -133,12 +133,11 @@ TEST_P(TorqueAtTheEnd, InLockstepItIsOffInTheTickInWhichATaskThrows) {
   EXPECT_NEAR(board.world->time_s() - before, 0.201, 1e-9) << "not one period later";
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, TorqueAtTheEnd, testing::ValuesIn(simulated_board_names()),
-                         [](const auto& backend) {
-                           std::string name = backend.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Backends, TorqueAtTheEnd, testing::ValuesIn(simulated_board_names()), [](const auto& backend) {
+  std::string name = backend.param;
+  std::erase(name, '-');
+  return name;
+});
 
 }  // namespace
 }  // namespace trocar::torque_at_the_end_test

@@ -1,5 +1,5 @@
-// Sensors whose peers are hostile, break off and come back: random bytes, and an hour of it in simulated time. Whenever a
-// sample is valid it is one that the peer has said, and no older than the bound.
+// Sensors whose peers are hostile, break off and come back: random bytes, and an hour of it in simulated time. Whenever
+// a sample is valid it is one that the peer has said, and no older than the bound.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -30,7 +30,8 @@ std::atomic<std::int64_t> virtual_ns{kSecond_ns};
 std::int64_t virtual_now() { return virtual_ns; }
 
 bool soon(const std::function<bool()>& holds) {
-  for (int k = 0; k < 20000 && !holds(); ++k) std::this_thread::sleep_for(std::chrono::microseconds(k < 200 ? 20 : 500));
+  for (int k = 0; k < 20000 && !holds(); ++k)
+    std::this_thread::sleep_for(std::chrono::microseconds(k < 200 ? 20 : 500));
   return holds();
 }
 
