@@ -211,6 +211,48 @@ TEST(SafetyChain, AMotorOfTheWrongSignIsStopped) {
   }
 }
 
+/// Fastest that the stylus gets while a hand swings it gently, m/s.
+double fastest_with(LoopRig& rig) {
+  rig.start();
+  rig.move(working_pose(), 1.0);
+  const Pose rest = rig.goal;
+  double fastest = 0;
+  for (int k = 0; k < 4000; ++k) {
+    rig.goal.p = rest.p + Vec3(0, 0, 0.012 * (std::cos(4e-3 * k) - 1));
+    rig.tick();
+    fastest = std::max(fastest, rig.daq.plant().motion().V_BS.linear.norm());
+  }
+  EXPECT_TRUE(rig.record.torque.allFinite());
+  return fastest;
+}
+
+/// Numbers that a file or an exercise may have and no arm has: the hand feels them, nothing is thrown.
+TEST(SafetyChain, WhatAFileSaysWrongIsFeltAndThrowsNothing) {
+  HapticLoopConfig heavy;
+  for (PlatformWeight& weight : heavy.device.platform_weights) weight.weight_n *= 10;
+  heavy.device.stylus_weight_n *= 10;
+  LoopRig too_heavy({}, heavy);
+  EXPECT_LT(fastest_with(too_heavy), 2.2) << "ten times the weight, carried as far as the motors go";
+  HapticLoopConfig weak;
+  for (Transmission& t : weak.device.transmission) t.amps_per_volt /= 10;
+  LoopRig too_strong({}, weak);
+  EXPECT_LT(fastest_with(too_strong), 2.2) << "amplifiers ten times as strong as their file says";
+  for (const double stiffness : {1e4, 1e6, 1e8}) {
+    LoopRig rig;
+    rig.start();
+    rig.move(working_pose(), 1.0);
+    rig.put_floor(0.002, stiffness);
+    const Pose rest = rig.goal;
+    double fastest = 0;
+    for (int k = 0; k < 4000; ++k) {
+      rig.goal.p = rest.p + Vec3(0, 0, 0.012 * (std::cos(4e-3 * k) - 1));
+      rig.tick();
+      fastest = std::max(fastest, rig.daq.plant().motion().V_BS.linear.norm());
+    }
+    EXPECT_LT(fastest, 2.2) << "a floor of " << stiffness << " N/m";
+  }
+}
+
 TEST(SafetyChain, AContactWhoseTissueSaysNothingMoreFadesAndStopsTheLoop) {
   HapticLoopConfig config;
   config.safety.max_patch_age_s = 0.2;
