@@ -26,9 +26,9 @@ const std::vector<Commands>& commands() {
   static const std::vector<Commands> table{
       {{add_practice, add_run, add_test, add_sweep, add_replay, add_score, add_demo, add_bench, add_study, add_version,
         add_picture, add_exercises, add_check}},
-      {{add_device_forward, add_device_boards, add_device_calibrate, add_device_card, add_device_selftest,
-        add_device_home, add_device_pinch, add_device_sensor, add_device_monitor, add_device_plant, add_device_eval,
-        add_device_ik, add_device_identify},
+      {{add_device_forward, add_device_boards, add_device_calibrate, add_device_card, add_device_faults,
+        add_device_selftest, add_device_home, add_device_pinch, add_device_sensor, add_device_monitor, add_device_stop,
+        add_device_plant, add_device_eval, add_device_ik, add_device_identify},
        "device",
        "Models of the device, its back-end on the bench"},
       {{add_organ_import, add_organ_inspect, add_organ_info, add_organ_render, add_organ_export, add_organ_package,

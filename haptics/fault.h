@@ -25,13 +25,14 @@ enum class FaultCode : std::uint8_t {
   kEmergencyStop,   ///< emergency stop pressed
   kDriveFault,      ///< an amplifier reports a fault
   kDriveHot,        ///< an amplifier or motor reports over-temperature
+  kStalePatch,      ///< the tissue has given no new patch for too long; value: its age, s
 };
 
 /// True where sensing and drives can still be trusted: the torque then fades within SafetyLimits::fade_s (stop
 /// category 1). All others cut it in the same tick (category 0).
 constexpr bool is_soft(FaultCode code) {
   return code == FaultCode::kOverspeed || code == FaultCode::kSingular || code == FaultCode::kEnergyDebt ||
-         code == FaultCode::kOverheat || code == FaultCode::kDriveHot;
+         code == FaultCode::kOverheat || code == FaultCode::kDriveHot || code == FaultCode::kStalePatch;
 }
 
 struct Fault {
@@ -82,6 +83,8 @@ constexpr const char* fault_name(FaultCode code) {
       return "drive-fault";
     case FaultCode::kDriveHot:
       return "drive-hot";
+    case FaultCode::kStalePatch:
+      return "stale-patch";
   }
   return "unknown";
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "haptics/control/gravity.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "haptics/loop_check.h"
 
 namespace trocar {
 
@@ -39,6 +41,14 @@ PassivityParameters with_period(PassivityParameters p, double period_s, int know
   p.period_s = period_s;
   p.delay_s = (1 + known_delay_periods) * period_s;  // the seam's own: codes act at the next SYNC
   return p;
+}
+
+constexpr double kSmallForce_n = 0.5;  // from which on a contact that was there at arming waits
+
+const HapticLoopConfig& checked(const HapticLoopConfig& config) {
+  if (const std::string wrong = loop_refusal(config); !wrong.empty())
+    throw std::invalid_argument("haptic loop: " + wrong);
+  return config;
 }
 
 /// No more is fed forward than friction surely takes.
@@ -80,10 +90,13 @@ SafetyLimits with_noise(const HapticLoopConfig& config) {
 }
 
 /// NaN or infinity anywhere in the patch: comparisons would swallow it and the force would silently vanish. The same
-/// for a material or a vertex that its table does not have.
+/// for a material or a vertex that its table does not have, or for more of them than there can be.
 bool is_sound(const ContactPatch& patch, bool triangles) {
-  double sum = patch.grip.thickness_m + patch.grip.stiffness_n_per_m + (patch.held.from_I + patch.held.to_I).sum() +
-               patch.held.radius_m + (patch.hold.point_I + patch.hold.anchor_T).sum() + patch.hold.stiffness_n_per_m;
+  if (patch.count < 0 || patch.count > kMaxPatchTriangles) return false;
+  if (patch.vertex_count < 0 || patch.vertex_count > kMaxPatchVertices) return false;
+  double sum = patch.glide_s + patch.given_j + patch.reach_m + patch.grip.thickness_m + patch.grip.stiffness_n_per_m +
+               (patch.held.from_I + patch.held.to_I).sum() + patch.held.radius_m +
+               (patch.hold.point_I + patch.hold.anchor_T).sum() + patch.hold.stiffness_n_per_m;
   for (const ContactMaterial& m : patch.material) {
     sum += m.stiffness_n_per_m + m.damping_s_per_m + m.mu_static + m.mu_dynamic + m.stribeck_m_s;
   }
@@ -109,7 +122,7 @@ bool is_sound(const ContactPatch& patch, bool triangles) {
 }  // namespace
 
 HapticLoop::HapticLoop(const HapticLoopConfig& config)
-    : config_(config),
+    : config_(checked(config)),
       period_s_(1 / config.daq.rate_hz),
       instrument_(config.map),
       exchange_(std::max<std::int32_t>(1, static_cast<std::int32_t>(config.tools.size()))),
@@ -199,10 +212,12 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
   if (supervisor_.state() != LoopState::kActive) {
     contact_.reset();
     port_.reset();
-    last_port_j_ = 0;
+    last_port_j_ = patch_age_s_ = 0;
+    arm_waits_ = jaws_wait_ = true;
     return contact;
   }
   const bool new_patch = patch.stamp != checked_stamp_;
+  patch_age_s_ = new_patch ? 0 : patch_age_s_ + motion.periods * period_s_;
   checked_stamp_ = patch.stamp;
   if (!is_sound(patch, new_patch)) {
     supervisor_.raise(FaultCode::kNonFinite, tick_, -1, patch.material[0].stiffness_n_per_m);
@@ -230,7 +245,10 @@ HapticLoop::Contact HapticLoop::feel(const Motion& motion, const ContactPatch& p
     contact.limit = stiffness_limit(config_.device, spring_torque / contact.spring_n, contact.stiffness, period_s_,
                                     (1 + config_.known_delay_periods) * period_s_);
   }
-  contact.share = contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
+  arm_waits_ = arm_waits_ && contact.spring_n > kSmallForce_n;
+  jaws_wait_ = jaws_wait_ && contact.grip.force_n > kSmallForce_n;
+  if (jaws_wait_) contact.jaw_share = 0;
+  contact.share = arm_waits_ ? 0 : contact.port_share * (config_.clamp_stiffness ? contact.limit.share : 1);
   contact.commanded_W = whole.force;
   contact.torque.head<kArmJoints>() = contact.share * torque_of(whole);
   if (config_.clamp_stiffness) {
@@ -346,6 +364,7 @@ void HapticLoop::watch(const Motion& motion, const Contact& contact, const Limit
   now.touching = contact.tissue.contact || contact.grip.force_n > 0;
   now.saturated = now.touching && contact.room * torque.contact_scale < 1;
   now.debt = arm_passivity_.debt_faded() || pinch_passivity_.debt_faded();
+  now.patch_age_s = patch_age_s_;
   watch_.update(now, supervisor_);
   limiter_.set_limit(peak_.update(torque.total, watch_.winding_c(), motion.periods * period_s_));
   if (arm_passivity_.debt_fault()) supervisor_.raise(FaultCode::kEnergyDebt, tick_, -1, arm_passivity_.budget_j());
@@ -381,6 +400,8 @@ void HapticLoop::publish(const DaqSample& in, const Motion& motion, const Contac
   record.stiffness_n_per_m = contact.stiffness;
   record.winding_c = watch_.hottest_c();
   record.warnings = watch_.warnings();
+  if (supervisor_.state() == LoopState::kActive && (arm_waits_ || jaws_wait_))
+    record.warnings = static_cast<WarningBits>(record.warnings | bit(LoopWarning::kContactWaits));
   record.contact_scale = contact.room * torque.contact_scale;
   record.stored_j = contact.tissue.stored_j;
   record.min_energy_j = arm_passivity_.min_energy_j();

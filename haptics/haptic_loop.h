@@ -65,6 +65,7 @@ struct HapticLoopConfig {
 
 class HapticLoop {
  public:
+  /// @throws std::invalid_argument naming the field that no loop can be run with (loop_check.h).
   explicit HapticLoop(const HapticLoopConfig& config);
 
   /// One period. @param in latched sample; @param patch newest tissue patch; @param record filled with everything.
@@ -154,7 +155,9 @@ class HapticLoop {
   TorqueHistory asked_contact_;  ///< of the ticks past: acts after the known delay
   SubCountTravel fine_;
   SmoothedRates friction_rates_;
-  double last_port_j_ = 0;  ///< energy in the port's springs one tick ago
+  double last_port_j_ = 0;                    ///< energy in the port's springs one tick ago
+  bool arm_waits_ = true, jaws_wait_ = true;  ///< since ACTIVE, until their force has been small once
+  double patch_age_s_ = 0;                    ///< since a new patch came, or since ACTIVE
 };
 
 }  // namespace trocar

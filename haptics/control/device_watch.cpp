@@ -21,6 +21,7 @@ void DeviceWatch::update(const WatchedTick& now, Supervisor& supervisor) {
   watch_heat(now, supervisor);
   watch_speed(now, supervisor);
   watch_encoders(now, supervisor);
+  watch_patch(now, supervisor);
   set(LoopWarning::kNearSingular, active && now.det_a < limits_.warn_det_a);
   set(LoopWarning::kForceSaturated, active && now.saturated);
   set(LoopWarning::kEnergyDebt, active && now.debt);
@@ -83,8 +84,17 @@ void DeviceWatch::watch_encoders(const WatchedTick& now, Supervisor& supervisor)
   set(LoopWarning::kEncoderStuck, suspected);
 }
 
+void DeviceWatch::watch_patch(const WatchedTick& now, Supervisor& supervisor) {
+  const double most = limits_.max_patch_age_s, fades_from = most / 2;
+  const bool old = supervisor.state() == LoopState::kActive && now.patch_age_s > fades_from;
+  const double left = old ? std::max(0.0, (most - now.patch_age_s) / (most - fades_from)) : 1;
+  patch_share_ = std::min(left, patch_share_ + now.periods * period_s_ / limits_.patch_return_s);
+  set(LoopWarning::kStalePatch, old);
+  if (old && now.patch_age_s > most) supervisor.raise(FaultCode::kStalePatch, now.tick, -1, now.patch_age_s);
+}
+
 double DeviceWatch::contact_share() const {
-  double share = warnings_ & bit(LoopWarning::kOverspeed) ? 0 : 1;
+  double share = warnings_ & bit(LoopWarning::kOverspeed) ? 0 : patch_share_;
   for (const MotorHeat& heat : heat_) share = std::min(share, heat.share());
   return share;
 }

@@ -1,4 +1,5 @@
-// Looks at what the tick computed, before it leaves: heat, speed, energy, singularity, encoders that do not count.
+// Looks at what the tick computed, before it leaves: heat, speed, energy, singularity, encoders that
+// do not count, a tissue that says nothing.
 //
 // Warns first, reduces the torque next, raises a fault last (docs/device_and_safety.md names the values). A joint or
 // the tip that is too fast loses its contact force and is damped; if it is still too fast after overspeed_s, that is a
@@ -27,7 +28,8 @@ struct WatchedTick {
   ChannelVector torque = ChannelVector::Zero();  ///< total asked of the motors
   bool touching = false;                         ///< tissue or the jaws' block
   bool saturated = false;
-  bool debt = false;  ///< an energy budget has faded its stiffness
+  bool debt = false;       ///< an energy budget has faded its stiffness
+  double patch_age_s = 0;  ///< since the tissue's patch was new
 };
 
 class DeviceWatch {
@@ -38,7 +40,7 @@ class DeviceWatch {
   void update(const WatchedTick& now, Supervisor& supervisor);
 
   WarningBits warnings() const { return warnings_; }
-  /// Share of the contact torque that may be rendered: heat and overspeed.
+  /// Share of the contact torque that may be rendered: heat, overspeed and an old patch.
   double contact_share() const;
   /// Against motion that is too fast; zero otherwise. @param qd rad/s.
   ChannelVector damping(const ChannelVector& qd) const;
@@ -49,6 +51,7 @@ class DeviceWatch {
   void watch_heat(const WatchedTick& now, Supervisor& supervisor);
   void watch_speed(const WatchedTick& now, Supervisor& supervisor);
   void watch_encoders(const WatchedTick& now, Supervisor& supervisor);
+  void watch_patch(const WatchedTick& now, Supervisor& supervisor);
   /// Counts that the arm has travelled since the last tick; a count that comes and goes is none.
   std::int64_t arm_travel(const std::array<std::int32_t, kChannels>& delta);
   void set(LoopWarning warning, bool on) {
@@ -65,6 +68,7 @@ class DeviceWatch {
   std::array<std::int64_t, kArmJoints> quiet_travel_{};   ///< counts of the arm since this joint counted last
   std::array<std::int32_t, kArmJoints> off_place_{};  ///< counts from where travel was last taken, within the dither
   double too_fast_s_ = 0;
+  double patch_share_ = 1;  ///< of the contact, that the age of its patch lets through
   WarningBits warnings_ = 0;
 };
 

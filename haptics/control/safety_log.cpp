@@ -11,7 +11,8 @@ SafetyLog::SafetyLog(double rate_hz) : after_ticks_(static_cast<std::uint64_t>(s
 }
 
 void SafetyLog::add(const TickRecord& record) {
-  if (record.stylus.loop != last_) note(record);
+  const StylusState& s = record.stylus;
+  if (s.loop != last_ || (s.loop == LoopState::kFault && s.fault.tick != fault_tick_)) note(record);
   if (closed_) return;
   keep(record);
   if (until_close_ == 0 || --until_close_ > 0) return;
@@ -36,6 +37,7 @@ void SafetyLog::note(const TickRecord& record) {
     ++lost_;
   }
   last_ = s.loop;
+  fault_tick_ = s.fault.tick;
   until_close_ = after_ticks_;
 }
 

@@ -3,8 +3,8 @@
 // Ticks go into a bank, a ring of 2 s. Shortly after a change of state the bank is closed and the next one begins, so
 // that the banks together hold at least 2 s before each of the latest changes without anything being copied in the
 // tick. The oldest bank is used again; that of a fault stays closed, and the log stands still, until the operator's
-// reset. All memory is taken in the constructor; add() allocates nothing. Thread: haptic task; read it when the loop
-// does not run.
+// reset. A reset that ends in another fault within its tick is a change too. All memory is taken in the constructor;
+// add() allocates nothing. Thread: haptic task; read it when the loop does not run.
 #pragma once
 
 #include <array>
@@ -61,6 +61,7 @@ class SafetyLog {
   std::uint64_t after_ticks_, until_close_ = 0;  ///< ticks after a change; left of them, 0: none awaited
   bool closed_ = false;                          ///< a fault's bank is closed
   LoopState last_ = LoopState::kOff;
+  std::uint64_t fault_tick_ = 0;  ///< of the last change to FAULT
   std::array<SafetyTransition, kTransitions> transitions_{};
   std::ptrdiff_t count_ = 0;
   std::uint64_t lost_ = 0;

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "haptics/control/homing.h"
 #include "haptics/device/data_acquisition.h"
@@ -41,6 +42,9 @@ struct SafetyLimits {
   std::int64_t stuck_travel = 12000;       ///< counts of the arm without one of this joint: a fault [4 x, likewise]
   std::uint32_t max_missed_in_a_row = 20;  ///< periods without a tick between them
   double max_missed_share = 0.01;          ///< of the last second
+  /// Of the tissue's patch while ACTIVE; the contact fades from half of it on. Infinite: nobody makes patches anew.
+  double max_patch_age_s = std::numeric_limits<double>::infinity();
+  double patch_return_s = 0.05;  ///< in which the contact comes back with a new patch
 };
 
 /// What the self-test waits for; bits of Fault::value.

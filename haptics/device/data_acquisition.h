@@ -55,6 +55,11 @@ struct DaqCapabilities {
   bool motors = true;  ///< false: nothing can push back (PointerDaq); the loop then renders nothing and guards no motor
 };
 
+/// Whether a board can be run at this rate, with a watchdog so patient: what its registers are worked out from.
+constexpr bool is_board_pace(double rate_hz, double watchdog_s) {
+  return rate_hz >= 100 && rate_hz <= 10000 && watchdog_s > 0 && watchdog_s <= 1;
+}
+
 class DataAcquisition {
  public:
   virtual ~DataAcquisition() = default;

@@ -26,6 +26,7 @@ const SimulatedDaqConfig& checked(const SimulatedDaqConfig& c) {
   require(c.rate_hz == 1000 || c.rate_hz == 2000 || c.rate_hz == 4000, "rate_hz is 1000, 2000 or 4000");
   require(c.substep_s > 0 && c.substep_s <= 250e-6, "substep_s lies in (0, 250e-6]");
   require(c.dac_bits >= 8 && c.dac_bits <= 24, "dac_bits lies in 8 to 24");
+  require(c.watchdog_s > 0, "watchdog_s is more than nothing");
   require(c.extra_delay_periods >= 0 && c.extra_delay_periods <= kMaxExtraDelayPeriods,
           "extra_delay_periods is 0 to 63");
   if (c.plant) {

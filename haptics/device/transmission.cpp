@@ -51,7 +51,8 @@ DacFrame dac_codes(const DeviceModel& model, const ChannelVector& torque, int da
   for (int i = 0; i < kChannels; ++i) {
     const Transmission& t = model.transmission[i];
     const double code = (torque[i] / torque_per_volt(t) - t.offset_v) / t.full_scale_v * full;
-    frame.codes[i] = static_cast<std::int32_t>(std::lround(std::clamp(code, -full, full)));
+    // NaN passes a clamp: it is no torque.
+    frame.codes[i] = std::isnan(code) ? 0 : static_cast<std::int32_t>(std::lround(std::clamp(code, -full, full)));
   }
   return frame;
 }

@@ -14,11 +14,13 @@ enum class LoopWarning : std::uint8_t {
   kForceSaturated,  ///< the torque budget cut the contact force
   kEnergyDebt,      ///< the passivity budget owes so much that the stiffness is faded
   kOverspeed,       ///< joint or tip too fast: contact off, damping on
+  kStalePatch,      ///< the tissue's patch is old: the contact fades
+  kContactWaits,    ///< armed within the tissue: no contact force until it would be small once
 };
 
-inline constexpr std::array kLoopWarnings{LoopWarning::kEncoderStuck, LoopWarning::kHotMotor,
-                                          LoopWarning::kNearSingular, LoopWarning::kForceSaturated,
-                                          LoopWarning::kEnergyDebt,   LoopWarning::kOverspeed};
+inline constexpr std::array kLoopWarnings{
+    LoopWarning::kEncoderStuck, LoopWarning::kHotMotor,  LoopWarning::kNearSingular, LoopWarning::kForceSaturated,
+    LoopWarning::kEnergyDebt,   LoopWarning::kOverspeed, LoopWarning::kStalePatch,   LoopWarning::kContactWaits};
 
 using WarningBits = std::uint16_t;
 
@@ -41,6 +43,10 @@ constexpr const char* warning_name(LoopWarning warning) {
       return "energy-debt";
     case LoopWarning::kOverspeed:
       return "overspeed";
+    case LoopWarning::kStalePatch:
+      return "stale-patch";
+    case LoopWarning::kContactWaits:
+      return "contact-waits";
   }
   return "unknown";
 }

@@ -1,24 +1,17 @@
-// Stops of every kind through the whole loop on the simulated device: how fast the torque goes, what stays, what it
-// takes to come back. The times are those of docs/device_and_safety.md.
+// Stops through the whole loop on the simulated device, beyond how fast each fault takes the torque away (which is
+// tests/app/device_bench/fault_trials_test.cpp, on every back-end): how a soft one fades, what stays, what it takes to
+// come back.
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <tuple>
 
 #include "haptics/control/gravity.h"
-#include "haptics/device/backends/make_backend.h"
-#include "haptics/device/hostmot2/fake_hostmot2.h"
-#include "haptics/device/hostmot2/hostmot2_daq.h"
-#include "haptics/device/mc4000/emulated_mc4000.h"
-#include "haptics/device/mc4000/mc4000_daq.h"
 #include "tests/haptics/loop_rig.h"
 
 namespace trocar::haptic_loop_safety_test {
 namespace {
 
 using test::LoopRig;
-using test::MakeRigBoard;
-using test::RigBoard;
 using test::working_pose;
 
 constexpr double kAt = 3.6;
@@ -27,9 +20,7 @@ constexpr double kAt = 3.6;
 class MovingRig : public LoopRig {
  public:
   explicit MovingRig(const InjectedFault& fault, HapticLoopConfig loop_config = {}, bool readback = true)
-      : MovingRig(device_with(fault, readback), loop_config, MakeRigBoard{}) {}
-  MovingRig(const SimulatedDaqConfig& device, const HapticLoopConfig& loop_config, const MakeRigBoard& make_board)
-      : LoopRig(device, loop_config, make_board) {
+      : LoopRig(device_with(fault, readback), loop_config) {
     start();
     move(working_pose(), 1.0);
     rest = goal;
@@ -42,10 +33,7 @@ class MovingRig : public LoopRig {
       tick();
     }
   }
-  double load() const {
-    const auto held = board.hold();
-    return daq.plant().motor_loads().cwiseAbs().maxCoeff();
-  }
+  double load() const { return daq.plant().motor_loads().cwiseAbs().maxCoeff(); }
   Pose rest;
 
   static SimulatedDaqConfig device_with(const InjectedFault& fault, bool readback) {
@@ -56,137 +44,7 @@ class MovingRig : public LoopRig {
   }
 };
 
-struct Stop {
-  const char* name;
-  InjectedFault fault;
-  FaultCode cause;
-  int channel;
-  int ticks;  ///< at most, from the SYNC at which it shows to no current at all
-};
-
-/// The driver of a card on the network, and the card that is not there.
-RigBoard card_board(SimulatedDaq& device, const InjectedFault& fault) {
-  struct Card final : DataAcquisition {
-    Card(SimulatedDaq& d, const InjectedFault& f)
-        : fake(d, {f}, options().wiring), driver([this] {
-            Hostmot2Options own = options();
-            own.card = fake.address();
-            return own;
-          }()) {}
-    static Hostmot2Options options() {
-      Hostmot2Options out;
-      out.wait_share = out.rate_hz;  // a second: a busy machine may be late
-      out.wiring.inputs.push_back({kHandFault, 69, false});
-      return out;
-    }
-    DaqCapabilities capabilities() const noexcept override { return driver.capabilities(); }
-    /// A card that has been silent for a few ticks stays so: it is not waited for any more.
-    DaqSample read() noexcept override {
-      if (silent_for < 6) last = driver.read();
-      silent_for = last.elapsed_periods == 0 ? silent_for + 1 : 0;
-      return last;
-    }
-    void write(const DacFrame& frame) noexcept override { driver.write(frame); }
-    void arm(bool enabled) noexcept override {
-      driver.arm(enabled);
-      if (!enabled) fake.settle(driver.link().sent);
-    }
-    FakeHostmot2 fake;
-    Hostmot2Daq driver;
-    DaqSample last;
-    int silent_for = 0;
-  };
-  auto card = std::make_unique<Card>(device, fault);
-  FakeHostmot2* fake = &card->fake;
-  return {.daq = std::move(card), .world = fake, .hold = [fake] { return fake->hold(); }};
-}
-
-/// The driver of the thesis' boards, and boards that are not there.
-RigBoard boards_board(SimulatedDaq& device) {
-  struct Boards final : DataAcquisition {
-    explicit Boards(SimulatedDaq& d)
-        : pair(d, 1000, {}, options().inputs), driver(pair.board(0), pair.board(1), options()) {}
-    static Mc4000Options options() {
-      Mc4000Options out;
-      out.inputs.push_back({kHandFault, 1, 31, false});
-      return out;
-    }
-    DaqCapabilities capabilities() const noexcept override { return driver.capabilities(); }
-    DaqSample read() noexcept override { return driver.read(); }
-    void write(const DacFrame& frame) noexcept override { driver.write(frame); }
-    void arm(bool enabled) noexcept override { driver.arm(enabled); }
-    EmulatedMc4000 pair;
-    Mc4000Daq driver;
-  };
-  return {.daq = std::make_unique<Boards>(device), .world = &device};
-}
-
-class Stops : public ::testing::TestWithParam<std::tuple<const char*, Stop>> {};
-
-TEST_P(Stops, TorqueGoesInTimeAndTheFirstCauseStays) {
-  const auto& [backend, stop] = GetParam();
-  SimulatedDaqConfig device = MovingRig::device_with(stop.fault, true);
-  MakeRigBoard make_board;
-  if (backend == std::string(kFakeHostmot2Backend)) {
-    if (stop.cause == FaultCode::kDacMismatch) GTEST_SKIP() << "this card's outputs cannot be read back";
-    device = FakeHostmot2::device_config(device);
-    make_board = [&fault = stop.fault](SimulatedDaq& d) { return card_board(d, fault); };
-  }
-  if (backend == std::string(kEmulatedMc4000Backend)) {
-    device = EmulatedMc4000::device_config(device);
-    make_board = boards_board;
-  }
-  MovingRig rig(device, {}, make_board);
-  while (rig.daq.time_s() < kAt - 1.5e-3) {
-    rig.swing(1);
-    ASSERT_TRUE(rig.record.amplifiers_armed) << fault_name(rig.record.stylus.fault.code);
-  }
-  EXPECT_GT(rig.load(), 0.05) << "there is torque to lose";
-  int ticks = 0;
-  do {
-    rig.swing(1);
-    ++ticks;
-  } while (rig.load() > 0 && ticks < 100);
-  RecordProperty("ticks", ticks);
-  EXPECT_LE(ticks, stop.ticks);
-  rig.swing(50);
-  EXPECT_EQ(rig.record.stylus.loop, LoopState::kFault);
-  EXPECT_STREQ(fault_name(rig.record.stylus.fault.code), fault_name(stop.cause));
-  EXPECT_EQ(rig.record.stylus.fault.channel, stop.channel);
-  EXPECT_FALSE(rig.record.amplifiers_armed);
-  EXPECT_EQ(rig.load(), 0);
-  for (const std::int32_t code : rig.record.out.codes) EXPECT_EQ(code, 0);
-  const Fault first = rig.record.stylus.fault;
-  rig.swing(500);
-  EXPECT_EQ(rig.record.stylus.fault.tick, first.tick) << "latched";
-  EXPECT_EQ(rig.load(), 0) << "nothing brings the torque back";
-  EXPECT_EQ(rig.allocations, 0u);
-}
-
 using K = InjectedFaultKind;
-INSTANTIATE_TEST_SUITE_P(
-    Injected, Stops,
-    ::testing::Combine(
-        ::testing::Values(kSimulatedBackend, kFakeHostmot2Backend, kEmulatedMc4000Backend),
-        ::testing::Values(Stop{"EncoderJump", {K::kEncoderJump, kAt, 0, 2, 500}, FaultCode::kEncoderJump, 2, 2},
-                          Stop{"DeadChannel", {K::kChannelInvalid, kAt, 0, 4, 0}, FaultCode::kChannelInvalid, 4, 2},
-                          Stop{"SensorSilence", {K::kSensorSilence, kAt, 0, 0, 0}, FaultCode::kSensorSilent, -1, 2},
-                          Stop{"EmergencyStop", {K::kEmergencyStop, kAt, 0, 0, 0}, FaultCode::kEmergencyStop, -1, 2},
-                          Stop{"DriveFault", {K::kDriveFault, kAt, 0, 3, 0}, FaultCode::kDriveFault, 3, 2},
-                          Stop{"DacStuck", {K::kDacStuck, kAt, 0, 1, 0}, FaultCode::kDacMismatch, 1, 2},
-                          Stop{"HandNaN", {K::kHandNaN, kAt, 0.1, 0, 0}, FaultCode::kHandNonFinite, -1, 2},
-                          Stop{"LostSyncs", {K::kMissedSync, kAt, 0, 0, 25}, FaultCode::kLateLoop, -1, 2},
-                          // The board zeroes its DACs after 16 ms, the loop cuts the current when it hears of it.
-                          Stop{"LostWrites", {K::kWatchdog, kAt, 0, 0, 0}, FaultCode::kWatchdog, -1, 18},
-                          // Soft: faded within 20 ms.
-                          Stop{"DriveHot", {K::kOverTemperature, kAt, 0, 0, 0}, FaultCode::kDriveHot, 0, 22})),
-    [](const auto& stop) {
-      const std::string backend = std::get<0>(stop.param);
-      return (backend == kSimulatedBackend      ? "Simulated"
-              : backend == kFakeHostmot2Backend ? "Hostmot2"
-                                                : "Mc4000") +
-             std::string(std::get<1>(stop.param).name);
-    });
 
 TEST(SoftStop, FadesTheWeightAndDropsTheContact) {
   MovingRig rig({K::kOverTemperature, kAt, 0, 0, 0});

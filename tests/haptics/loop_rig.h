@@ -1,9 +1,7 @@
 // The whole loop in simulated time: HapticLoop on the simulated device, a hand that aims, a patch in the theatre.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "haptics/device/replay_daq.h"
@@ -18,37 +16,22 @@ namespace trocar::test {
 /// A comfortable pose in front of home: det A 0.9, far from every limit.
 inline Pose working_pose() { return arm_state(degrees(45, 45, 45, -60, -75, 0)).X_WS; }
 
-/// A driver with its card before the simulated device; empty: the device is the board itself.
-struct RigBoard {
-  std::unique_ptr<DataAcquisition> daq = {};
-  SimulatedWorld* world = nullptr;
-  std::function<std::unique_lock<std::mutex>()> hold = [] { return std::unique_lock<std::mutex>(); };
-};
-using MakeRigBoard = std::function<RigBoard(SimulatedDaq& device)>;
-
 class LoopRig {
  public:
-  explicit LoopRig(const SimulatedDaqConfig& device = {}, const HapticLoopConfig& loop_config = {},
-                   const MakeRigBoard& make_board = {})
-      : daq(quiet(device)),
-        board(make_board ? make_board(daq) : RigBoard{}),
-        seam(board.daq ? *board.daq : daq),
-        world(board.world ? *board.world : daq),
-        config(matched(loop_config, seam)),
-        loop(config),
-        patch(std::make_unique<ContactPatch>()) {
+  explicit LoopRig(const SimulatedDaqConfig& device = {}, const HapticLoopConfig& loop_config = {})
+      : daq(quiet(device)), config(matched(loop_config, daq)), loop(config), patch(std::make_unique<ContactPatch>()) {
     goal = daq.sense().X_BS;
   }
 
   /// One period. @return the record of the tick.
   const TickRecord& tick() {
-    if (holding) world.set_hand_intent(goal, jaw);
-    const DaqSample sample = seam.read();
+    if (holding) daq.set_hand_intent(goal, jaw);
+    const DaqSample sample = daq.read();
     const AllocationGuard guard;
     const DacFrame out = loop.tick(sample, *patch, record);
     allocations += guard.allocations();
-    seam.arm(record.amplifiers_armed);
-    seam.write(out);
+    daq.arm(record.amplifiers_armed);
+    daq.write(out);
     if (keep) records.push_back(record);
     return record;
   }
@@ -93,9 +76,6 @@ class LoopRig {
   }
 
   SimulatedDaq daq;
-  RigBoard board;
-  DataAcquisition& seam;
-  SimulatedWorld& world;
   HapticLoopConfig config;
   HapticLoop loop;
   std::unique_ptr<ContactPatch> patch;

@@ -13,6 +13,7 @@
 #include "app/device_bench/board_checks.h"
 #include "app/device_bench/simulated_bench.h"
 #include "app/session/setup/device_files.h"
+#include "haptics/device/backends/simulated_board.h"
 
 namespace trocar {
 namespace {
@@ -65,7 +66,7 @@ void add_device_selftest(CLI::App& parent, CommandAction& chosen) {
   selftest->add_flag("--json", o.json, "As JSON");
   selftest->add_option("--backend", o.backend, "What it is done on, with the simulated device behind it")
       ->capture_default_str()
-      ->check(CLI::IsMember({kSimulatedBackend, kFakeHostmot2Backend, kEmulatedMc4000Backend}));
+      ->check(CLI::IsMember(simulated_board_names()));
   selftest->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
   selftest->add_option("--rate", o.rate_hz, "SYNC rate, Hz")
       ->capture_default_str()

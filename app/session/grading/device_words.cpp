@@ -37,7 +37,9 @@ const std::map<std::string, FaultWords>& table() {
       {"watchdog", {"the board was not written to for 16 ms and has zeroed its outputs", "Check the bus to the board"}},
       {"emergency-stop", {"the emergency stop was pressed", "Make the place safe, then release the button"}},
       {"drive-fault", {"the amplifier reports a fault", "Check its supply, wiring and indicator"}},
-      {"drive-hot", {"the amplifier or motor is too hot", "Let it cool and check its fan"}}};
+      {"drive-hot", {"the amplifier or motor is too hot", "Let it cool and check its fan"}},
+      {"stale-patch",
+       {"the tissue said nothing new for % s", "Close other programs; where they are closed, report this"}}};
   return words;
 }
 

@@ -34,8 +34,8 @@ class HapticTask final : public Task {
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override;
   bool finished() const override;
-  /// Torque off, whatever the loop last said.
-  void stop() override { daq_.write({}), daq_.arm(false); }
+  /// Torque off, whatever the loop last said: not after the slowest of the others has ended.
+  void leave() noexcept override { daq_.write({}), daq_.arm(false); }
 
   /// The newest record. Thread: the haptic task's, or any when the run is over.
   const TickRecord& record() const { return record_; }

@@ -22,17 +22,26 @@ class LockstepExecutor {
   std::uint64_t run(const std::function<bool()>& interrupted = {}) {
     const FlushDenormals flush;
     std::uint64_t tick = 0;
-    do {
-      for (Task* task : tasks_) {
-        if (tick % task->period() == 0) task->run(tick);
-      }
-      ++tick;
-    } while (!finished() && !(interrupted && interrupted()));
+    try {
+      do {
+        for (Task* task : tasks_) {
+          if (tick % task->period() == 0) task->run(tick);
+        }
+        ++tick;
+      } while (!finished() && !(interrupted && interrupted()));
+    } catch (...) {
+      leave();
+      throw;
+    }
+    leave();
     for (Task* task : tasks_) task->stop();
     return tick;
   }
 
  private:
+  void leave() noexcept {
+    for (Task* task : tasks_) task->leave();
+  }
   bool finished() const {
     return std::any_of(tasks_.begin(), tasks_.end(), [](const Task* task) { return task->finished(); });
   }

@@ -17,6 +17,9 @@ class Task {
   virtual void missed(std::uint64_t /*periods*/) {}
   /// Asked after each run(): true ends the whole run.
   virtual bool finished() const { return false; }
+  /// Once, right after the last run() and in its thread, whether it ended well or not: what may not wait for the other
+  /// tasks.
+  virtual void leave() noexcept {}
   /// Once, when no task runs any more.
   virtual void stop() {}
 };

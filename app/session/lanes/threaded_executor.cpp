@@ -88,7 +88,9 @@ void ThreadedExecutor::run(const std::function<bool()>& interrupted) {
       pace(*own_, interrupted);
     } catch (...) {
       own_->thrown = std::current_exception();
+      stop_.store(true);
     }
+    leave(*own_);
   } else {
     while (!stop_.load() && !(interrupted && interrupted())) sleep_until(now_ns(CLOCK_MONOTONIC) + kWatchPeriod);
   }
@@ -125,6 +127,11 @@ void ThreadedExecutor::work(Lane& lane) noexcept {
     lane.thrown = std::current_exception();
     stop_.store(true);
   }
+  leave(lane);
+}
+
+void ThreadedExecutor::leave(Lane& lane) noexcept {
+  for (Task* task : lane.tasks) task->leave();
 }
 
 /// Waits out a pause. @return true when there was one since the lane last asked: its wished times now lie later.

@@ -4,8 +4,9 @@
 // A lane wakes at each period of its first task and runs its tasks in order. After a late wake it never catches up with
 // calls in a burst: the periods that passed are told to its tasks (Task::missed), which run once, and the next wake is
 // the next boundary. The last lane may be the calling thread's (pictures belong to the thread that made their context).
-// The run ends when a task has finished, `interrupted` says so, or a task throws; then all lanes are joined, every task
-// is stopped in its order, and what was thrown is thrown again. A PauseSwitch lets all lanes stand still
+// The run ends when a task has finished, `interrupted` says so, or a task throws; then each lane leaves its tasks when
+// it sees the end, at its own next wake at the latest, all are joined, every task is stopped in its order, and what was
+// thrown is thrown again. A PauseSwitch lets all lanes stand still
 // (pause_switch.h). Threads: construct, add and run from one.
 #pragma once
 
@@ -79,6 +80,7 @@ class ThreadedExecutor {
   struct Lane;
   bool stood_still(Lane& lane, const std::function<bool()>& interrupted);
   void work(Lane& lane) noexcept;
+  static void leave(Lane& lane) noexcept;
   void pace(Lane& lane, const std::function<bool()>& interrupted);
   void call(Lane& lane, std::uint64_t missed);
   void join();

@@ -43,7 +43,8 @@ const TriangleSurface& felt_surface(const Scene& scene) {
 namespace {
 
 constexpr int kFormat = 1;
-constexpr double kFarthest = 10;  // m of an image's origin from the theatre's
+constexpr double kPatchAge_s = 0.2;  // twenty steps of the tissue at the least
+constexpr double kFarthest = 10;     // m of an image's origin from the theatre's
 constexpr const char* kUnreadable = ": the recording's setup cannot be read: ";
 
 nlohmann::json file_json(const DeviceFile& file) { return {{"text", file.text}, {"file", file.name}}; }
@@ -524,6 +525,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
   scene.loop.safety.max_missed_in_a_row = setup.pace.missed_in_a_row;
   scene.loop.safety.max_missed_share = setup.pace.missed_share;
+  scene.loop.safety.max_patch_age_s = std::max(kPatchAge_s, 2 * setup.pace.missed_in_a_row / setup.rate_hz);
   if (!daq.motors) spare_the_device(scene.loop);
   scene.loop.contact_law = setup.contact_law;
   scene.loop.passivity.law = setup.passivity_law;

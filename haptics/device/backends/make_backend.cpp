@@ -1,8 +1,7 @@
 #include "haptics/device/backends/make_backend.h"
 
-#include "haptics/device/hostmot2/fake_hostmot2.h"
+#include "haptics/device/backends/simulated_board.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
-#include "haptics/device/mc4000/emulated_mc4000.h"
 #include "haptics/device/mc4000/mc4000_daq.h"
 #include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/device/pointer_daq.h"
@@ -24,12 +23,13 @@ struct BackendKind {
   Backend (*make)(const BackendOptions&);
 };
 
+/// A board of that name with the simulated device behind it, and its sensor.
+template <const char* const& kName>
 Backend simulated_backend(const BackendOptions& options) {
-  auto daq = std::make_unique<SimulatedDaq>(options.simulated);
-  SimulatedWorld* world = daq.get();
-  return {.daq = std::move(daq),
+  SimulatedBoard board = open_simulated_board(kName, options.simulated);
+  return {.daq = std::move(board.daq),
           .sensor = std::make_unique<SimulatedForceSensor>(options.sensor, options.sensor_seed),
-          .world = world};
+          .world = board.world};
 }
 
 Backend pointer_backend(const BackendOptions& options) {
@@ -50,43 +50,6 @@ Backend hostmot2_backend(const BackendOptions& options) {
   return {.daq = std::make_unique<Hostmot2Daq>(hostmot2_options(options))};
 }
 
-/// A card that is not there and its driver, for as long as the driver is there.
-class FakeCardDaq final : public DataAcquisition {
- public:
-  FakeCardDaq(const SimulatedDaqConfig& device, Hostmot2Options options)
-      : device_(FakeHostmot2::device_config(device)), card_(device_, device.faults, options.wiring), driver_([&] {
-          options.card = card_.address();
-          return options;
-        }()) {}
-  DaqCapabilities capabilities() const noexcept override { return driver_.capabilities(); }
-  DaqSample read() noexcept override { return driver_.read(); }
-  void write(const DacFrame& frame) noexcept override { driver_.write(frame); }
-  /// What disarms is sent without a question: it has acted before anybody looks, so that runs repeat to the bit.
-  void arm(bool enabled) noexcept override {
-    driver_.arm(enabled);
-    if (!enabled) card_.settle(driver_.link().sent);
-  }
-  SimulatedWorld* world() { return &card_; }
-
- private:
-  SimulatedDaq device_;
-  FakeHostmot2 card_;
-  Hostmot2Daq driver_;
-};
-
-Backend fake_hostmot2_backend(const BackendOptions& options) {
-  constexpr double kPatience_s = 10;  // nothing is lost there: a busy machine may be late
-  Hostmot2Options own = hostmot2_options(options);
-  own.name = kFakeHostmot2Backend;
-  own.wait_share = kPatience_s * own.rate_hz;
-  own.wiring.inputs.push_back({kHandFault, 69, false});  // that a real hand does not have
-  auto daq = std::make_unique<FakeCardDaq>(options.simulated, own);
-  SimulatedWorld* world = daq->world();
-  return {.daq = std::move(daq),
-          .sensor = std::make_unique<SimulatedForceSensor>(options.sensor, options.sensor_seed),
-          .world = world};
-}
-
 Mc4000Options mc4000_options(const BackendOptions& options) {
   Mc4000Options out;
   out.rate_hz = options.simulated.rate_hz;
@@ -94,12 +57,11 @@ Mc4000Options mc4000_options(const BackendOptions& options) {
   return out;
 }
 
-/// What boards are made of, and their driver, for as long as the driver is there.
-template <typename Boards>
-class DaqWithBoards final : public DataAcquisition {
+/// Two boards on the bus and their driver, for as long as the driver is there.
+class PciBoardsDaq final : public DataAcquisition {
  public:
-  DaqWithBoards(std::unique_ptr<Boards> boards, RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options)
-      : boards_(std::move(boards)), driver_(board0, board1, options) {}
+  PciBoardsDaq(const std::string& first, const std::string& second, const Mc4000Options& options)
+      : first_(first, options.rate_hz), second_(second, options.rate_hz), driver_(first_, second_, options) {}
   DaqCapabilities capabilities() const noexcept override { return driver_.capabilities(); }
   bool await_sync() noexcept { return driver_.await_sync(); }
   DaqSample read() noexcept override { return driver_.read(); }
@@ -107,52 +69,37 @@ class DaqWithBoards final : public DataAcquisition {
   void arm(bool enabled) noexcept override { driver_.arm(enabled); }
 
  private:
-  std::unique_ptr<Boards> boards_;
+  PciBus first_, second_;
   Mc4000Daq driver_;
 };
 
 Backend mc4000_backend(const BackendOptions& options) {
-  struct Boards {
-    PciBus first, second;
-  };
   const std::size_t comma = options.card.find(',');
   if (comma == std::string::npos)
     throw InputError(
         "--card " + options.card +
         ": two boards are expected, with a comma: /sys/bus/pci/devices/0000:03:00.0,/sys/bus/pci/devices/0000:03:01.0");
-  const double rate_hz = options.simulated.rate_hz;
-  auto boards = std::unique_ptr<Boards>(
-      new Boards{PciBus(options.card.substr(0, comma), rate_hz), PciBus(options.card.substr(comma + 1), rate_hz)});
-  Boards& b = *boards;
-  auto daq = std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.first, b.second, mc4000_options(options));
-  DaqWithBoards<Boards>& driver = *daq;
+  auto daq = std::make_unique<PciBoardsDaq>(options.card.substr(0, comma), options.card.substr(comma + 1),
+                                            mc4000_options(options));
+  PciBoardsDaq& driver = *daq;
   return {.daq = std::move(daq), .await_sync = [&driver] { return driver.await_sync(); }};
 }
 
-Backend emulated_mc4000_backend(const BackendOptions& options) {
-  struct Boards {
-    Boards(const SimulatedDaqConfig& config, const Mc4000Options& driver)
-        : device(EmulatedMc4000::device_config(config)), pair(device, config.rate_hz, driver.map, driver.inputs) {}
-    SimulatedDaq device;
-    EmulatedMc4000 pair;
-  };
-  Mc4000Options own = mc4000_options(options);
-  own.name = kEmulatedMc4000Backend;
-  own.inputs.push_back({kHandFault, 1, 31, false});  // that a real hand does not have
-  auto boards = std::make_unique<Boards>(options.simulated, own);
-  Boards& b = *boards;
-  return {.daq = std::make_unique<DaqWithBoards<Boards>>(std::move(boards), b.pair.board(0), b.pair.board(1), own),
-          .sensor = std::make_unique<SimulatedForceSensor>(options.sensor, options.sensor_seed),
-          .world = &b.device};
-}
-
 constexpr BackendKind kBackends[] = {
-    {kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend},
+    {kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend<kSimulatedBackend>},
     {kPointerBackend, 16, false, {.pause = true, .pace = true}, pointer_backend},
     {kHostmot2Backend, hostmot2::kPdmBits + 1, true, {}, hostmot2_backend},
-    {kFakeHostmot2Backend, hostmot2::kPdmBits + 1, true, {.pause = true, .pace = true}, fake_hostmot2_backend},
+    {kFakeHostmot2Backend,
+     hostmot2::kPdmBits + 1,
+     true,
+     {.pause = true, .pace = true},
+     simulated_backend<kFakeHostmot2Backend>},
     {kMc4000Backend, Mc4000Map{}.dac_bits, true, {}, mc4000_backend},
-    {kEmulatedMc4000Backend, Mc4000Map{}.dac_bits, true, {.pause = true, .pace = true}, emulated_mc4000_backend}};
+    {kEmulatedMc4000Backend,
+     Mc4000Map{}.dac_bits,
+     true,
+     {.pause = true, .pace = true},
+     simulated_backend<kEmulatedMc4000Backend>}};
 
 const BackendKind& backend_kind(const std::string& name) {
   std::string known;

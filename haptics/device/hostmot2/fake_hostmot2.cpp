@@ -166,6 +166,8 @@ void FakeHostmot2::deal_with(const Datagram& question) {
     while (noise.size() < bytes) noise.add(random_(), 1);
     socket_.send(noise);
   }
+  if (troubles_.lies)
+    for (std::size_t at = 4; at + 4 <= answer.size(); at += 4) answer.set32(at, static_cast<std::uint32_t>(random_()));
   if (happens(troubles_.cuts)) answer.resize(random_() % answer.size());
   send(answer);
 }

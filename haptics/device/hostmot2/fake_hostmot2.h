@@ -33,6 +33,7 @@ struct CardTroubles {
   double babbles = 0;         ///< share of the answers with random bytes before them, as a datagram of their own
   bool silent = false;        ///< answers nothing
   bool frozen = false;        ///< time and counters stand still, everything else goes on
+  bool lies = false;          ///< answers in time, of the right length, to the right question, and makes the data up
   bool no_kicks = false;      ///< the watchdog does not see that it is kicked
   int quadrature_errors = 0;  ///< channels whose next read has one, a bit each
   std::uint32_t cookie = hostmot2::kCookie;

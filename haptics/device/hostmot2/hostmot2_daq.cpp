@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "haptics/device/index_mark.h"
 #include "haptics/input_error.h"
@@ -12,7 +13,14 @@ namespace {
 using namespace hostmot2;
 using lbp16::Command;
 
+const Hostmot2Options& checked(const Hostmot2Options& o) {
+  if (!is_board_pace(o.rate_hz, o.watchdog_s) || !(o.stamp_hz > 0) || !(o.pdm_hz > 0) || !(o.wait_share > 0))
+    throw std::invalid_argument("hostmot2: rates from 100 to 10000 Hz, a watchdog of up to 1 s and times above 0");
+  return o;
+}
+
 constexpr std::uint16_t kLongAgo = 65535;
+constexpr int kGivenUp = 6;  // answers lost in a row: from then on no longer than a period is waited for the next
 
 /// Divider of a clock that comes nearest to a rate: clock / (divider + 2).
 std::uint32_t divider_of(double clock_hz, double wanted_hz) {
@@ -22,7 +30,7 @@ std::uint32_t divider_of(double clock_hz, double wanted_hz) {
 }  // namespace
 
 Hostmot2Daq::Hostmot2Daq(const Hostmot2Options& options)
-    : options_(options), card_(options.card, options.setup_wait_s), identity_(card_.identify()) {
+    : options_(checked(options)), card_(options.card, options.setup_wait_s), identity_(card_.identify()) {
   watchdog_ = module(kWatchdogs);
   io_ = module({kPorts.tag, kPorts.name, std::max(kPorts.instances, identity_.ports)});
   encoder_ = module(kEncoders);
@@ -136,8 +144,9 @@ bool Hostmot2Daq::exchange() noexcept {
   question_.set32(kick_at_, fed_ || !armed_ ? kWatchdogKick : 0);
   fed_ = false;
   if (!send(question_)) return false;
+  const double wait_share = lost_in_a_row_ < kGivenUp ? options_.wait_share : std::min(options_.wait_share, 0.8);
   for (int n = 0; n < kMostStale; ++n) {
-    if (!card_.link().receive(answer_, options_.wait_share / options_.rate_hz)) return false;
+    if (!card_.link().receive(answer_, wait_share / options_.rate_hz)) return false;
     if (answer_.size() != answer_bytes_)
       ++link_.malformed;
     else if (answer_.value32(0) != card_.counter())
@@ -168,6 +177,10 @@ DaqSample Hostmot2Daq::sample_of_answer() noexcept {
   const double to_us = 1e6 / stamp_hz_, passed_us = passed * to_us;
   out.elapsed_periods =
       read_once_ ? static_cast<std::uint32_t>(std::max(0.0, std::round(passed_us * 1e-6 * options_.rate_hz))) : 1;
+  if (out.elapsed_periods == 0) {  // its time stands still: whatever it counts is no news
+    last_.elapsed_periods = 0;
+    return last_;
+  }
   for (std::size_t i = 0; i < kChannels; ++i, at += 4) {
     const std::uint32_t word = answer_.value32(at);
     const auto raw = static_cast<std::uint16_t>(word);

@@ -46,8 +46,8 @@ struct Hostmot2Link {
 class Hostmot2Daq final : public DataAcquisition {
  public:
   /// Reads who the card is, sets it up with outputs at zero and inhibited, and starts its watchdog.
-  /// @throws InputError: address; EnvironmentError: no answer, another firmware, too few or unusual modules: each says
-  /// what.
+  /// @throws std::invalid_argument: a rate or time that no card has; InputError: address; EnvironmentError: no answer,
+  /// another firmware, too few or unusual modules: each says what.
   explicit Hostmot2Daq(const Hostmot2Options& options);
   /// Outputs at zero and inhibited.
   ~Hostmot2Daq() override;

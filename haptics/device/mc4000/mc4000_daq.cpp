@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "haptics/input_error.h"
 
@@ -12,6 +13,12 @@ namespace {
 constexpr int kSyncTries = 50;  // periods in which a first SYNC must come
 constexpr int kFirstDrivePin = 8;
 constexpr std::uint32_t kNobody = ~0U;  // what a bus reads where no board answers
+
+const Mc4000Options& checked(const Mc4000Options& o) {
+  if (!is_board_pace(o.rate_hz, o.watchdog_s))
+    throw std::invalid_argument("mc4000: rates from 100 to 10000 Hz and a watchdog of up to 1 s");
+  return o;
+}
 
 std::uint32_t dac_word(std::int32_t code, int bits) {
   return static_cast<std::uint32_t>(code) & (bits >= 32 ? ~0U : (1U << bits) - 1);
@@ -38,7 +45,7 @@ std::vector<Mc4000Input> mc4000_inputs() {
 
 Mc4000Daq::Mc4000Daq(RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options)
     : boards_{&board0, &board1},
-      options_(options),
+      options_(checked(options)),
       watchdog_counts_(static_cast<std::uint32_t>(
           std::max(1.0, std::ceil(options.watchdog_s * options.rate_hz / options.map.watchdog_divider - 1e-9)))) {
   for (int number = 0; number < 2; ++number) set_up(*boards_[static_cast<std::size_t>(number)], number);
@@ -134,7 +141,7 @@ DaqSample Mc4000Daq::read() noexcept {
     const std::uint32_t seen = flags[static_cast<std::size_t>(kMc4000Axes[i].board)];
     if (seen != kNobody && (seen & map.flag_sync) && !(board.read(decoder(i, map.decoder_mode)) & map.mode_error))
       out.valid = static_cast<std::uint8_t>(out.valid | 1U << i);
-    if (armed_ && sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
+    if (armed_ && seen != kNobody && sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
       out.digital_in |= kDacMismatch << i;
   }
   const bool fired = ((flags[0] | (flags[1] == kNobody ? 0 : flags[1])) & map.flag_watchdog) != 0;
@@ -169,7 +176,8 @@ void Mc4000Daq::arm(bool enabled) noexcept {
     write({});
     clear_watchdogs();
   }
-  if (enabled != armed_) boards_[0]->write(options_.map.digital_out_a, enabled ? options_.map.out_amplifiers : 0);
+  // Off is said each time: a board that was gone has not heard it.
+  if (!enabled || !armed_) boards_[0]->write(options_.map.digital_out_a, enabled ? options_.map.out_amplifiers : 0);
   armed_ = enabled;
 }
 

@@ -30,7 +30,8 @@ struct Mc4000Options {
 
 class Mc4000Daq final : public DataAcquisition {
  public:
-  /// @throws EnvironmentError: a register does not keep what is written, no SYNC comes, a watchdog will not run.
+  /// @throws std::invalid_argument: a rate or time that no board has; EnvironmentError: a register does not keep what
+  /// is written, no SYNC comes, a watchdog will not run.
   Mc4000Daq(RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options);
   /// Converters at zero, amplifiers off, timers stopped.
   ~Mc4000Daq() override;

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "haptics/input_error.h"
 
@@ -49,27 +50,39 @@ bool read_ati_line(const std::string& line, AtiLine& into) {
   return true;
 }
 
-AtiSerial::AtiSerial(const std::string& device, const WrenchStreamOptions& options) : WrenchStream(options) {
-  port_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+/// @return 0, or what the system says of it.
+int AtiSerial::open_port() {
+  port_ = ::open(device_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   termios line = {};
   if (port_ < 0 || ::tcgetattr(port_, &line) != 0) {
     const int why = errno;
-    if (port_ >= 0) ::close(port_);
-    throw EnvironmentError(
-        "force sensor " + device + ": " + (why == ENOTTY ? "no serial line" : std::strerror(why)) +
-        (why == EACCES ? "; put yourself into the group dialout: sudo usermod -aG dialout $USER" : ""));
+    close_port();
+    return why;
   }
   ::cfmakeraw(&line);
   ::cfsetspeed(&line, B38400);
   line.c_cflag |= CLOCAL | CREAD;
   ::tcsetattr(port_, TCSANOW, &line);
+  return 0;
+}
+
+void AtiSerial::close_port() {
+  if (port_ >= 0) ::close(std::exchange(port_, -1));
+}
+
+AtiSerial::AtiSerial(const std::string& device, const WrenchStreamOptions& options)
+    : WrenchStream(options), device_(device) {
+  if (const int why = open_port(); why != 0)
+    throw EnvironmentError(
+        "force sensor " + device + ": " + (why == ENOTTY ? "no serial line" : std::strerror(why)) +
+        (why == EACCES ? "; put yourself into the group dialout: sudo usermod -aG dialout $USER" : ""));
   start();
 }
 
 AtiSerial::~AtiSerial() {
   stop();
   say("");
-  ::close(port_);
+  close_port();
 }
 
 void AtiSerial::say(const char* command) {
@@ -96,8 +109,11 @@ void AtiSerial::listen() {
     const ssize_t got = there ? ::read(port_, bytes.data(), bytes.size()) : 0;
     if (got <= 0) {
       silent_s += 1e-3 * kListen_ms;
-      if (ready.revents & (POLLHUP | POLLERR))
-        std::this_thread::sleep_for(std::chrono::milliseconds(kListen_ms));  // nobody at the other end: not in a circle
+      if (port_ < 0 || (ready.revents & (POLLHUP | POLLERR | POLLNVAL))) {  // pulled out: not in a circle
+        close_port();
+        std::this_thread::sleep_for(std::chrono::milliseconds(kListen_ms));
+        if (open_port() == 0) silent_s = options().silent_s;
+      }
       continue;
     }
     silent_s = take_in(bytes.data(), static_cast<std::size_t>(got)) ? 0 : silent_s + 1e-3;

@@ -3,7 +3,8 @@
 // Text and not the 13-byte binary records: a line ends where it says, so a lost byte costs a line and never shifts the
 // next ones into each other, and 85 lines a second are more than the 40 of the thesis. Commands end in CR: "CD A", "CD
 // R", "SA n", "QS" begins, CR alone ends, "SB" takes the bias. A line: status, three forces, three moments, with
-// commas. Source: ATI, F/T controller manual 9610-05-1001. Threads: as WrenchStream.
+// commas. A line that was pulled out is opened again when it is back. Source: ATI, F/T controller manual 9610-05-1001.
+// Threads: as WrenchStream.
 #pragma once
 
 #include "haptics/force_sensor/ati/wrench_stream.h"
@@ -26,11 +27,14 @@ class AtiSerial final : public WrenchStream {
 
  private:
   void listen() override;
+  int open_port();
+  void close_port();
   void say(const char* command);
   void begin();
   bool take_in(const char* bytes, std::size_t size);
 
-  int port_ = -1;
+  std::string device_;
+  int port_ = -1;  ///< -1: pulled out
   std::string line_ = {};
 };
 

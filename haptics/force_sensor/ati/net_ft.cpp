@@ -37,6 +37,7 @@ void NetFt::listen() {
   while (!ends()) {
     if (silent_s >= options().silent_s) {
       ask(kStream);
+      first_ = true;  // a box that began anew counts from the start
       count(&WrenchLink::begun);
       silent_s = 0;
     }

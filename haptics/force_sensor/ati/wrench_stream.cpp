@@ -6,17 +6,17 @@
 namespace trocar {
 namespace {
 
-std::int64_t now_ns() {
-  timespec now = {};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
 constexpr std::uint64_t WrenchLink::*kCounters[] = {&WrenchLink::records,      &WrenchLink::lost,
                                                     &WrenchLink::out_of_order, &WrenchLink::malformed,
                                                     &WrenchLink::unsound,      &WrenchLink::begun};
 
 }  // namespace
+
+std::int64_t monotonic_ns() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
 
 WrenchStream::WrenchStream(const WrenchStreamOptions& options) : options_(options) {
   config_.rate_hz = options.rate_hz;
@@ -47,7 +47,7 @@ WrenchLink WrenchStream::link() const {
 void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
   WrenchRecord record;
   record.number = ++taken_;
-  record.arrived_ns = now_ns();
+  record.arrived_ns = options_.now_ns();
   Vec3 force;
   for (int i = 0; i < 3; ++i)
     force[i] = static_cast<double>(counts[static_cast<std::size_t>(i)]) / options_.counts_per_n;
@@ -68,7 +68,8 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
 
 std::pair<WrenchRecord, bool> WrenchStream::newest() {
   const WrenchRecord record = newest_.read();
-  const bool fresh = record.number > 0 && static_cast<double>(now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
+  const bool fresh =
+      record.number > 0 && static_cast<double>(options_.now_ns() - record.arrived_ns) < 1e9 * options_.silent_s;
   return {record, fresh && record.sound};
 }
 

@@ -17,16 +17,20 @@
 
 namespace trocar {
 
+/// CLOCK_MONOTONIC, ns.
+std::int64_t monotonic_ns();
+
 struct WrenchStreamOptions {
   double rate_hz = 40;         ///< at which the task takes samples
   double lag_s = 0.15;         ///< of the sensor with its filter, for comparison with delivered forces [T: measured]
   double silent_s = 0.2;       ///< without a record: not valid, and asked again [chosen]
   double counts_per_n = 1e6;   ///< as the box or calibration sheet says [M: Net F/T's usual]
   double counts_per_nm = 1e6;  ///< likewise
-  Mat3 R_out_sensor = Mat3::Identity();  ///< from the sensor's axes to those of the force that is given out
-  Vec3 fixture_n = Vec3::Zero();         ///< weight that hangs on the sensor, in the axes given out; taken away
-  double most_nm = 3;                    ///< likewise
-  double most_n = 125;                   ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
+  Mat3 R_out_sensor = Mat3::Identity();     ///< from the sensor's axes to those of the force that is given out
+  Vec3 fixture_n = Vec3::Zero();            ///< weight that hangs on the sensor, in the axes given out; taken away
+  std::int64_t (*now_ns)() = monotonic_ns;  ///< that dates records and tells their age
+  double most_nm = 3;                       ///< likewise
+  double most_n = 125;                      ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
 };
 
 struct WrenchRecord {

@@ -5,6 +5,8 @@
 #include "app/session/grading/recorded_result.h"
 #include "app/session/session.h"
 #include "haptics/device/backends/make_backend.h"
+#include "haptics/device/backends/simulated_board.h"
+#include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
 #include "tests/tissue/support/temporary_folder.h"
 
@@ -53,6 +55,59 @@ TEST_P(RealDrivers, GiveTheScoreOfTheSimulatedDevice) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, RealDrivers, testing::Values(kFakeHostmot2Backend, kEmulatedMc4000Backend),
                          [](const auto& backend) { return backend.index == 0 ? "Hostmot2" : "Mc4000"; });
+
+/// A disk that is full after so many chunks.
+class FullSink final : public RecordingSink {
+ public:
+  explicit FullSink(int most) : most_(most) {}
+  void append(std::string_view) override {
+    if (++written_ > most_) throw EnvironmentError("attempt.trec: No space left on device");
+  }
+  void sync() override {}
+
+ private:
+  int most_, written_ = 0;
+};
+
+/// Torques that the loop asked for, a row a view, until the disk is full; and what was said then.
+std::pair<std::vector<ChannelVector>, std::string> torques_until_full(const std::string& backend, int chunks) {
+  const AssetRoots assets = find_assets();
+  AttemptSetup setup;
+  setup.exercise = find_exercise("surface-touch", assets.exercises);
+  setup.organ = "phantom-liver";
+  setup.hand = "expert";
+  setup.seed = 5;
+  setup.backend = backend;
+  const Scene scene = build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
+  FullSink sink(chunks);
+  RecordingWriter writer(sink, scene_json(scene), setup.rate_hz);
+  std::pair<std::vector<ChannelVector>, std::string> out;
+  const auto seen = [&](const SessionView& view) { out.first.push_back(view.record.torque); };
+  try {
+    run_session(scene, assets, writer, seen, [&] { return out.first.size() >= 700; });
+  } catch (const EnvironmentError& error) {
+    out.second = error.what();
+  }
+  return out;
+}
+
+class FullDisk : public testing::TestWithParam<std::string> {};
+
+TEST_P(FullDisk, EndsTheAttemptWithItsReasonAndNeverTouchesTheForce) {
+  const auto [whole, nothing] = torques_until_full(GetParam(), 1 << 20);
+  const auto [cut, reason] = torques_until_full(GetParam(), 10);
+  EXPECT_EQ(nothing, "");
+  EXPECT_EQ(reason, "attempt.trec: No space left on device");
+  ASSERT_GT(cut.size(), 100U);
+  ASSERT_LT(cut.size(), whole.size());
+  for (std::size_t k = 0; k < cut.size(); ++k) ASSERT_EQ(cut[k], whole[k]) << "view " << k;
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FullDisk, testing::ValuesIn(simulated_board_names()), [](const auto& backend) {
+  std::string name = backend.param;
+  std::erase(name, '-');
+  return name;
+});
 
 TEST(RealArm, OneBoardIsNotTwo) {
   const AssetRoots assets = find_assets();

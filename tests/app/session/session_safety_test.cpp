@@ -127,6 +127,19 @@ TEST(SafetyFile, LiesBesideTheRecordingAndIsNeverWrittenInSilence) {
   write_safety_file(folder / "x.safety.csv", csv);
   EXPECT_EQ(std::filesystem::file_size(folder / "x.safety.csv"), csv.size());
   EXPECT_THROW(write_safety_file("/proc/trocar/x.csv", csv), EnvironmentError);
+  const SafetyFile back = read_safety_file(folder / "x.safety.csv");
+  ASSERT_EQ(back.changes.size(), 1U);
+  EXPECT_EQ(back.changes[0][4], "watchdog");
+  ASSERT_EQ(back.rows.size(), 1U);
+  EXPECT_EQ(back.columns.back(), "code6");
+  EXPECT_EQ(back.rows[0].back(), "-3");
+  for (const std::string& wrong :
+       {std::string(), csv.substr(0, csv.size() - 5), std::string("a,b\n1,2\n"), csv + "7\n"}) {
+    std::filesystem::remove(folder / "y.csv");
+    write_safety_file(folder / "y.csv", wrong);
+    EXPECT_THROW(read_safety_file(folder / "y.csv"), InputError) << wrong.substr(0, 40);
+  }
+  EXPECT_THROW(read_safety_file(folder / "nowhere.csv"), EnvironmentError);
 }
 
 }  // namespace

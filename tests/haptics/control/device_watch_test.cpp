@@ -189,5 +189,35 @@ TEST_F(DeviceWatchTest, AHeldArmThatTremblesDoesNotTravelHoweverLong) {
   expect_cause(FaultCode::kEncoderStuck, 2);
 }
 
+TEST_F(DeviceWatchTest, AnOldPatchFadesTheContactThenFaultsSoftly) {
+  SafetyLimits limits;
+  limits.max_patch_age_s = 0.2;
+  watch = DeviceWatch(limits, DeviceModel{}, MotorHeatParameters{}, kPeriod);
+  const auto at_age = [&](double age_s) {
+    now.patch_age_s = age_s;
+    look();
+    return watch.contact_share();
+  };
+  EXPECT_EQ(at_age(0.099), 1);
+  EXPECT_FALSE(warns(LoopWarning::kStalePatch));
+  EXPECT_NEAR(at_age(0.15), 0.5, 1e-9);
+  EXPECT_TRUE(warns(LoopWarning::kStalePatch));
+  EXPECT_NEAR(at_age(0.2), 0, 1e-9);
+  EXPECT_EQ(supervisor.state(), LoopState::kActive);
+  EXPECT_NEAR(at_age(0.001), 0.02, 1e-9) << "a new patch brings it back, in 50 ms";
+  EXPECT_FALSE(warns(LoopWarning::kStalePatch));
+  for (int k = 0; k < 60; ++k) at_age(0.01);
+  EXPECT_EQ(watch.contact_share(), 1);
+  at_age(0.201);
+  expect_cause(FaultCode::kStalePatch, -1);
+}
+
+TEST_F(DeviceWatchTest, WhereNobodyMakesPatchesAnewNoneIsOld) {
+  now.patch_age_s = 1e9;
+  look(10);
+  EXPECT_EQ(watch.contact_share(), 1);
+  EXPECT_EQ(supervisor.state(), LoopState::kActive);
+}
+
 }  // namespace
 }  // namespace trocar::device_watch_test

@@ -85,6 +85,22 @@ TEST_F(SafetyLogTest, AResetGoesOnWithTheNextBankAndKeepsTheFault) {
   EXPECT_EQ(log.transitions().size(), 11u);
 }
 
+TEST_F(SafetyLogTest, AResetThatIsRefusedWithinItsTickIsNotedWithItsNewCause) {
+  start();
+  feed(LoopState::kActive, 3000);
+  record.stylus.fault = {FaultCode::kOverheat, 2, next, 121};
+  feed(LoopState::kFault, 300);
+  record.stylus.fault = {FaultCode::kEmergencyStop, -1, next, 1};
+  feed(LoopState::kFault, 300);
+  const auto changes = log.transitions();
+  ASSERT_EQ(changes.size(), 7u);
+  EXPECT_EQ(changes[6].from, LoopState::kFault);
+  EXPECT_EQ(changes[6].to, LoopState::kFault);
+  EXPECT_EQ(changes[6].fault.code, FaultCode::kEmergencyStop);
+  EXPECT_EQ(changes[5].fault.code, FaultCode::kOverheat);
+  EXPECT_TRUE(holds(1820, 3820)) << "the 2 s before the first are still there";
+}
+
 TEST_F(SafetyLogTest, ChangesCloseTogetherShareABankAndOldOnesAreUsedAgain) {
   start();
   for (int k = 0; k < 20; ++k) {

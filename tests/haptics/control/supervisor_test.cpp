@@ -199,12 +199,12 @@ TEST_F(SupervisorTest, AfterAResetADeadmanHeldAllAlongDoesNotArm) {
   activate();
 }
 
-constexpr std::array kAllFaults{FaultCode::kNone,          FaultCode::kEncoderJump, FaultCode::kChannelInvalid,
-                                FaultCode::kNonFinite,     FaultCode::kOverspeed,   FaultCode::kSingular,
-                                FaultCode::kEnergyDebt,    FaultCode::kOverheat,    FaultCode::kLateLoop,
-                                FaultCode::kHandNonFinite, FaultCode::kSelfTest,    FaultCode::kEncoderStuck,
-                                FaultCode::kSensorSilent,  FaultCode::kDacMismatch, FaultCode::kWatchdog,
-                                FaultCode::kEmergencyStop, FaultCode::kDriveFault,  FaultCode::kDriveHot};
+constexpr std::array kAllFaults{
+    FaultCode::kNone,         FaultCode::kEncoderJump,   FaultCode::kChannelInvalid, FaultCode::kNonFinite,
+    FaultCode::kOverspeed,    FaultCode::kSingular,      FaultCode::kEnergyDebt,     FaultCode::kOverheat,
+    FaultCode::kLateLoop,     FaultCode::kHandNonFinite, FaultCode::kSelfTest,       FaultCode::kEncoderStuck,
+    FaultCode::kSensorSilent, FaultCode::kDacMismatch,   FaultCode::kWatchdog,       FaultCode::kEmergencyStop,
+    FaultCode::kDriveFault,   FaultCode::kDriveHot,      FaultCode::kStalePatch};
 
 TEST_F(SupervisorTest, HardFaultsDisarmAtOnceSoftOnesFadeInTwentyMilliseconds) {
   for (const FaultCode code : kAllFaults) {

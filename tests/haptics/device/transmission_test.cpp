@@ -107,6 +107,16 @@ TEST(Transmission, TorquesReturnFromCodesWithinHalfAStep) {
   }
 }
 
+TEST(Transmission, WhatIsNoNumberIsNoTorque) {
+  ChannelVector torque = ChannelVector::Constant(0.1);
+  torque[2] = std::numeric_limits<double>::quiet_NaN();
+  torque[4] = std::numeric_limits<double>::infinity();
+  const DacFrame frame = dac_codes({}, torque, 16);
+  EXPECT_EQ(frame.codes[2], 0);
+  EXPECT_EQ(frame.codes[4], 32767) << "infinity is clamped";
+  EXPECT_GT(frame.codes[1], 0);
+}
+
 TEST(Transmission, CodesAreClampedAtFullScaleAndSymmetric) {
   const DeviceModel model;
   const ChannelVector huge = ChannelVector::Constant(1e6);

@@ -9,7 +9,6 @@
 #include "haptics/device/mc4000/mc4000_daq.h"
 #include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/input_error.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/daq_conformance.h"
 
 namespace trocar::mc4000_test {
@@ -192,25 +191,6 @@ TEST_F(Mc4000, BoardsThatCannotBeSetUpAreRefusedWithTheReason) {
   refusal({.gone = {true, false}}, "board 0: its timer does not keep what is written");
   refusal({.gone = {false, true}}, "board 1: its timer does not keep what is written");
   refusal({.sync_cable_out = true}, "board 1: no SYNC comes from board 0; is their cable plugged?");
-}
-
-/// What every back-end owes its controller, asked of the device behind the boards.
-TEST_F(Mc4000, KeepsWhatEveryBackEndOwes) {
-  const auto daq = driver();
-  const test::DaqUnderTest asked{*daq, {}, {}, [this] { return device_.plant().motor_loads(); }};
-  test::expect_sane_capabilities(asked);
-  test::expect_well_formed_samples(asked, 500, 30);
-  test::expect_disarm_removes_torque(asked, 3000);
-  for (int k = 0; k < 10; ++k) period(*daq, true);
-  test::expect_atomic_write(asked, 3000);
-  test::expect_no_allocation(asked, 200);
-}
-
-TEST_F(Mc4000, ATickAllocatesNothing) {
-  const auto daq = driver();
-  const test::AllocationGuard guard;
-  for (int k = 0; k < 1000; ++k) period(*daq, k % 7 != 0);
-  EXPECT_EQ(guard.allocations(), 0U);
 }
 
 /// Memory of a board as sysfs gives it: here a file.
