@@ -55,8 +55,9 @@ void check_device(Bounds& in, const DeviceModel& device) {
 void check_safety(Bounds& in, const SafetyLimits& s) {
   in("safety.selftest_s", s.selftest_s, kTiny, kAny);
   in("safety.selftest_limit_s", s.selftest_limit_s, s.selftest_s, kEver);
-  in("safety.beam_s", s.beam_s, 0, kAny);
-  in("safety.still_s", s.still_s, 0, kAny);
+  in("safety.homing.beam_s", s.homing.beam_s, 0, kAny);
+  in("safety.homing.still_s", s.homing.still_s, 0, kAny);
+  in("safety.homing.debounce_s", s.homing.debounce_s, 0, kAny);
   in("safety.arm_s", s.arm_s, 0, kAny);
   in("safety.ramp_s", s.ramp_s, kTiny, kAny);
   in("safety.fade_s", s.fade_s, kTiny, 0.1);

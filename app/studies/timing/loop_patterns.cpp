@@ -27,7 +27,7 @@ constexpr std::int64_t kPatternPeriod = 1'000'000, kPeersWork = 100'000, kPeersS
 constexpr int kLoopFifo = 80;
 constexpr std::int64_t kCyclictestBins = 20'000;  // us
 
-std::int64_t monotonic_ns() {
+std::int64_t clock_ns() {
   timespec now = {};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
@@ -38,10 +38,10 @@ template <typename Await>
 std::vector<std::int64_t> wakes_of(double seconds, Await await) {
   std::vector<std::int64_t> wakes;
   wakes.reserve(static_cast<std::size_t>(seconds * kPatternHz * 1.1) + 1);
-  const std::int64_t end = monotonic_ns() + std::llround(seconds * 1e9);
-  for (std::int64_t now = monotonic_ns(); now < end;) {
+  const std::int64_t end = clock_ns() + std::llround(seconds * 1e9);
+  for (std::int64_t now = clock_ns(); now < end;) {
     wakes.push_back(now);
-    while (monotonic_ns() < now + kPeersWork) {
+    while (clock_ns() < now + kPeersWork) {
     }
     now = await(now + kPatternPeriod);
   }
@@ -58,8 +58,8 @@ class Nothing final : public Task {
 /// From the first time that it is asked: what comes before the run is no part of the slice.
 std::function<bool()> after(double seconds) {
   return [seconds, end = std::int64_t{0}]() mutable {
-    if (end == 0) end = monotonic_ns() + std::llround(seconds * 1e9);
-    return monotonic_ns() >= end;
+    if (end == 0) end = clock_ns() + std::llround(seconds * 1e9);
+    return clock_ns() >= end;
   };
 }
 
@@ -156,7 +156,7 @@ PatternRun busy_wait(double seconds) {
                           wakes_of(seconds,
                                    [](std::int64_t until) {
                                      std::int64_t now = 0;
-                                     while ((now = monotonic_ns()) < until) {
+                                     while ((now = clock_ns()) < until) {
                                      }
                                      return now;
                                    }),
@@ -167,12 +167,12 @@ PatternRun sleep_and_yield(double seconds) {
   return pattern_of_wakes("sleep-yield",
                           wakes_of(seconds,
                                    [](std::int64_t until) {
-                                     std::int64_t now = monotonic_ns();
+                                     std::int64_t now = clock_ns();
                                      if (const std::int64_t rest = until - kPeersSlack - now; rest > 0) {
                                        const timespec left{0, rest};
                                        ::nanosleep(&left, nullptr);
                                      }
-                                     while ((now = monotonic_ns()) < until) ::sched_yield();
+                                     while ((now = clock_ns()) < until) ::sched_yield();
                                      return now;
                                    }),
                           kPatternPeriod);
