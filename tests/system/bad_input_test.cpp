@@ -45,7 +45,8 @@ TEST_F(BadInput, UnknownNamesComeWithTheKnownOnes) {
       short_run({"--organ", "heart-of-gold", "--db", ":memory:"}), 2,
       "heart-of-gold: neither a file nor an organ that ships (phantom-abdomen, phantom-gallbladder, phantom-liver)");
   expect_refusal(short_run({"--level", "L9", "--db", ":memory:"}), 2, "no level 'L9': known are L1");
-  expect_refusal(short_run({"--inject", "gremlin@3", "--db", ":memory:"}), 2, "known are channel-invalid");
+  expect_refusal(short_run({"--inject", "gremlin@3", "--db", ":memory:"}), 2,
+                 "known are beam-dark, beam-lit, channel-invalid");
   expect_refusal(short_run({"--inject", "encoder-jump:7@3", "--db", ":memory:"}), 2, "channels are 0 to 6");
 }
 

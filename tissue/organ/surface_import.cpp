@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "haptics/input_error.h"
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/mesh/files/closing.h"
 #include "tissue/mesh/files/file_kind.h"
 #include "tissue/mesh/files/placement.h"

@@ -133,7 +133,7 @@ TEST(OrganImport, RefusalsLeaveNothingBehind) {
   options.label = {"5"}, options.triangles = 10;
   EXPECT_CONTAINS(refusal(options), "--triangles");
   options.triangles = 500, options.surface.unit = "inch";
-  EXPECT_CONTAINS(refusal(options), "inch");
+  EXPECT_CONTAINS(refusal(options), "no unit of length that is known here");
   options.surface.unit.clear(), options.output = folder.path().string() + "/";
   EXPECT_CONTAINS(refusal(options), "names a folder");
   options.output.clear();

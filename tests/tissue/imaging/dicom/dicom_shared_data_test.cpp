@@ -18,6 +18,7 @@
 #include "tissue/imaging/dicom/dicom_study.h"
 #include "tissue/imaging/dicom/rt_structures.h"
 #include "tissue/imaging/dicom/structure_contours.h"
+#include "tissue/imaging/labels/label_grid.h"
 
 namespace trocar::test::dicom_shared_data_test {
 namespace {
@@ -82,27 +83,28 @@ TEST_F(DicomSharedData, SegmentationEqualsItsNrrdVoxelByVoxel) {
   ASSERT_EQ(map.segments.size(), 1U);
   EXPECT_EQ(map.segments[0].name, "Liver");
   const LabelVolume& layer = map.layers[0];
-  ASSERT_EQ(layer.size, (std::array<int, 3>{512, 512, 3}));
-  const auto truth = nrrd_shorts(data_ / "ct_3slice_liver_dcmqi/liver_seg.nrrd", layer.labels.size());
+  ASSERT_EQ(layer.size, (std::array<int, 3>{512, 512, 5})) << "an empty slice before and behind";
+  const auto truth = nrrd_shorts(data_ / "ct_3slice_liver_dcmqi/liver_seg.nrrd", layer.offset(0, 0, 3));
   std::size_t different = 0;
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 512; ++j)
       for (int i = 0; i < 512; ++i)
-        different += layer.labels[layer.offset(511 - i, 511 - j, k)] != truth[layer.offset(i, j, k)] ? 1 : 0;
+        different += layer.labels[layer.offset(511 - i, 511 - j, k + 1)] != truth[layer.offset(i, j, k)] ? 1 : 0;
   EXPECT_EQ(different, 0U);
   EXPECT_EQ(layer.label_counts().at(1), 107098U);
-  const Eigen::Vector3d corner = layer.index_to_ras_mm * Eigen::Vector3d(511, 511, 0);
+  const Eigen::Vector3d corner = layer.index_to_ras_mm * Eigen::Vector3d(511, 511, 1);
   EXPECT_LT((corner - Eigen::Vector3d(235.2, 226.8, -128.69)).norm(), 1e-3);
 }
 
 TEST_F(DicomSharedData, SegmentationLiesOnItsImages) {
   const ImageVolume image = read_dicom_series(data_ / "ct_3slice_liver_dcmqi");
   const LabelMap map = read_dicom_segmentation(data_ / "ct_3slice_liver_dcmqi");
-  EXPECT_EQ(image.size, map.layers[0].size);
-  EXPECT_LT((image.index_to_ras_mm.matrix() - map.layers[0].index_to_ras_mm.matrix()).norm(), 1e-3);
+  ASSERT_TRUE(common_grid(grid_of(image), grid_of(map.layers[0])));
+  const LabelVolume layer = resampled_to(map.layers[0], grid_of(image));
+  EXPECT_EQ(layer.label_counts(), map.layers[0].label_counts());
   double sum = 0;
   for (std::size_t n = 0; n < image.values.size(); ++n)
-    sum += map.layers[0].labels[n] != 0 ? static_cast<double>(image.values[n]) : 0;
+    sum += layer.labels[n] != 0 ? static_cast<double>(image.values[n]) : 0;
   EXPECT_NEAR(sum / 107098, 45, 20) << "liver without contrast medium, Hounsfield units";
 }
 
