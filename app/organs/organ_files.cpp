@@ -160,8 +160,10 @@ class MaskGatherer {
     if (number_ == 0) throw InputError(input_ + ": holds no mask that marks a voxel");
     combined_.map = layers_.take();
     if (!empty_.empty())
-      notes_.push_back(std::to_string(empty_.size()) + (empty_.size() == 1 ? " mask marks" : " masks mark") +
-                       " no voxel and were left out: " + listed_words(empty_, empty_.size()));
+      notes_.push_back((empty_.size() == 1
+                            ? "a mask marks no voxel and was left out: "
+                            : std::to_string(empty_.size()) + " masks mark no voxel and were left out: ") +
+                       listed_words(empty_, empty_.size()));
     combined_.map.notes = std::move(notes_);
     for (LabelVolume& layer : combined_.map.layers) layer.notes = combined_.map.notes;
     return std::move(combined_);

@@ -263,7 +263,8 @@ std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>
   out.precision(2);
   out << set.name << ": " << organs.size() << " organs, exercises are done on " << set.subject << "\n  "
       << manifest_file << ": " << triangles << " triangles; " << set.contacts.size()
-      << " pairs of organs lie against each other\n";
+      << (set.contacts.size() == 1 ? " pair of organs lies against each other\n"
+                                   : " pairs of organs lie against each other\n");
   for (std::size_t n = 0; n < std::min(kListed, largest.size()); ++n) {
     const OrganManifest& manifest = largest[n]->manifest;
     out << "  " << manifest.name << " (" << manifest.material << "): " << manifest.mesh.volume_ml << " mL, "
