@@ -52,14 +52,14 @@ ChosenLabel chosen_label(const LabelMap& map, const std::string& file, const Nam
   return chosen;
 }
 
-/// What the file calls otherwise than a person's own table, and codes that say another organ than the name.
+/// What the file calls otherwise than a person's own table.
 void tell_conflicts(const LabelMap& map, const std::vector<ChosenLabel>& chosen, std::vector<std::string>& decisions) {
   for (const ChosenLabel& label : chosen) {
     const Segment& segment = label.segment;
-    const std::string by_file = own_name(map, segment),
-                      called = "label " + std::to_string(segment.number) + " is called \"" + segment.name + "\"";
+    const std::string by_file = own_name(map, segment);
     if (!by_file.empty() && folded_name(by_file) != folded_name(segment.name))
-      decisions.push_back(called + " by " + label.table + "; the file calls it \"" + by_file + "\"");
+      decisions.push_back("label " + std::to_string(segment.number) + " is called \"" + segment.name + "\" by " +
+                          label.table + "; the file calls it \"" + by_file + "\"");
   }
 }
 

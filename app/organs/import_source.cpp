@@ -149,8 +149,10 @@ void lay_on(const VoxelGrid& grid, LabelMap& map) {
 /// image values.
 void relate(ImportSource& source, const Progress& progress) {
   const VoxelGrid grid = grid_of(*source.image);
+  const auto on_it = [&] { return same_grid(grid, grid_of(source.map.layers.front())); };  // all layers have one grid
+  if (on_it()) return;
   lay_on(grid, source.map);
-  if (same_grid(grid, grid_of(source.map.layers.front()))) return;  // one map has one grid in all its layers
+  if (on_it()) return;
   for (const LabelVolume& layer : source.map.layers) {
     source.on_image.push_back(on_grid_of(*source.image, layer, source.file, progress));
     if (source.on_image.size() == 1) source.map.notes.push_back(source.on_image.front().notes.back());

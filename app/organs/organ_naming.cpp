@@ -24,28 +24,33 @@ void require_known(const MaterialTable& table, const std::string& material) {
   throw InputError("--material " + material + ": no such material; there are " + known);
 }
 
-/// The material of what has a name: by the name, else by the file's code, else soft tissue, which is said.
+/// The first of the file's codes whose meaning is a material; nullptr for none.
+const SegmentCode* known_code(const MaterialTable& table, const std::vector<SegmentCode>& codes) {
+  const auto found = std::find_if(codes.begin(), codes.end(), [&](const SegmentCode& code) {
+    return (code.role == "type" || code.role == "region") && table.knows(code.meaning);
+  });
+  return found == codes.end() ? nullptr : &*found;
+}
+
+/// The material of what has a name: by the name, else by the file's code, else soft tissue, which is said; so is a code
+/// that is about something else than the name.
 void find_material(const MaterialTable& table, const std::vector<SegmentCode>& codes, OrganNaming& naming) {
   naming.material = folded_name(naming.name);
-  const bool known = table.knows(naming.name);
-  for (const SegmentCode& code : codes) {
-    if ((code.role != "type" && code.role != "region") || !table.knows(code.meaning)) continue;
-    const std::string coded = folded_name(code.meaning);
-    if (known && (naming.material.find(coded) != std::string::npos || coded.find(naming.material) != std::string::npos))
-      return;
-    if (known) {
-      naming.decisions.push_back("\"" + naming.name + "\" is its name, but its code " + code.scheme + " " + code.value +
-                                 " says \"" + code.meaning + "\": it was taken by the name");
-      return;
-    }
-    naming.material = folded_name(code.meaning);
-    naming.decisions.push_back("material " + naming.material + " by the file's code " + code.scheme + " " + code.value +
-                               " \"" + code.meaning + "\"");
-    return;
+  const SegmentCode* code = known_code(table, codes);
+  const std::string coded = code == nullptr ? "" : folded_name(code->meaning);
+  const auto holds = [](const std::string& text, const std::string& part) { return text.find(part) != text.npos; };
+  if (table.knows(naming.name)) {
+    if (!holds(naming.material, coded) && !holds(coded, naming.material))
+      naming.decisions.push_back("\"" + naming.name + "\" is its name, but its code " + code->scheme + " " +
+                                 code->value + " says \"" + code->meaning + "\": it was taken by the name");
+  } else if (code != nullptr) {
+    naming.material = coded;
+    naming.decisions.push_back("material " + coded + " by the file's code " + code->scheme + " " + code->value + " \"" +
+                               code->meaning + "\"");
+  } else {
+    naming.decisions.push_back("no material is called \"" + naming.name + "\": it feels like " + kFallbackMaterial +
+                               " (--material says another)");
   }
-  if (known) return;
-  naming.decisions.push_back("no material is called \"" + naming.name + "\": it feels like " + kFallbackMaterial +
-                             " (--material says another)");
 }
 
 std::string output_name(const OrganImportOptions& options) {

@@ -281,9 +281,11 @@ int device_home(const HomeOptions& given, std::ostream& out, std::ostream& err) 
   } else if (last.homed && backend_abilities(options.backend).pace) {
     print_errors(all, out);
   }
+  const bool torque_free = std::all_of(all.begin(), all.end(), [](const HomeOutcome& o) { return o.torque_free; });
   if (last.homed)
-    err << "trocar: homed " << all.size() << " times on " << options.backend << ", the last in " << last.seconds
-        << " s, torque off throughout\n";
+    err << "trocar: homed " << all.size() << (all.size() == 1 ? " time on " : " times on ") << options.backend
+        << ", the last in " << last.seconds << " s, "
+        << (torque_free ? "torque off throughout\n" : "TORQUE WAS ASKED FOR on the way: report this\n");
   else
     err << "trocar: not homed on " << options.backend << " after " << last.seconds << " s: "
         << (!last.fault.empty() ? "fault " + last.fault

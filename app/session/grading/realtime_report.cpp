@@ -1,10 +1,7 @@
 #include "app/session/grading/realtime_report.h"
 
-#include <sys/utsname.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -53,16 +50,6 @@ RunReportJson bins_json(const std::map<std::int64_t, std::uint64_t>& bins) {
   RunReportJson json = RunReportJson::object();
   for (const auto& [lower, count] : bins) json[std::to_string(lower)] = count;
   return json;
-}
-
-std::string kernel_release() {
-  utsname name = {};
-  return ::uname(&name) == 0 ? std::string(name.sysname) + " " + name.release : "";
-}
-
-double load_of_last_minute() {
-  double load = 0;
-  return ::getloadavg(&load, 1) == 1 ? load : 0;
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/utsname.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
@@ -99,6 +101,16 @@ int isolated_processor() {
   std::string list;
   std::getline(file, list);
   return first_processor(list);
+}
+
+std::string kernel_release() {
+  utsname name = {};
+  return ::uname(&name) == 0 ? std::string(name.sysname) + " " + name.release : "";
+}
+
+double load_of_last_minute() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 ? load : 0;
 }
 
 bool real_time_kernel() {

@@ -49,6 +49,11 @@ int first_processor(const std::string& list);
 /// A processor that was kept free for such threads (isolcpus=); -1: none.
 int isolated_processor();
 
+/// "Linux 6.1.0-18-amd64"; empty: it does not say.
+std::string kernel_release();
+/// Processes that ran or wanted to, mean of the last minute; 0: the kernel does not say.
+double load_of_last_minute();
+
 /// Whether the kernel says that it is preemptible throughout (PREEMPT_RT).
 bool real_time_kernel();
 

@@ -1,10 +1,7 @@
 #include "app/studies/timing/timing_study.h"
 
-#include <sys/utsname.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -183,14 +180,10 @@ void add_notes(StudyResult& study, const TimedLoad& load) {
 }
 
 std::string machine_words() {
-  double load = 0;
-  ::getloadavg(&load, 1);
   std::ostringstream busy;
-  busy << std::fixed << std::setprecision(1) << load;
-  utsname name = {};
-  ::uname(&name);
-  return std::string(name.sysname) + " " + name.release + (real_time_kernel() ? ", real-time" : ", not real-time") +
-         ", " + std::to_string(std::thread::hardware_concurrency()) + " processors, load " + busy.str() +
+  busy << std::fixed << std::setprecision(1) << load_of_last_minute();
+  return kernel_release() + (real_time_kernel() ? ", real-time" : ", not real-time") + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " processors, load " + busy.str() +
          " from other programs before it began; simulated device of seed 1";
 }
 
