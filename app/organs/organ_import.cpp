@@ -122,19 +122,26 @@ SurfaceImportOptions surface_options(const OrganImportOptions& options) {
   return how;
 }
 
-/// One surface of another program as an organ. @param stem of its files; what they are goes into `files`
-CompiledMember surface_member(const OrganImportOptions& options, const fs::path& path, const OrganNaming& naming,
-                              const fs::path& stem, std::vector<SideFile>& files) {
+ImportedSurface read_surface(const OrganImportOptions& options, const fs::path& path, const OrganNaming& naming) {
   SurfaceImportOptions how = surface_options(options);
   if (how.organ.empty()) how.organ = naming.name;
-  const ImportedSurface source = import_surface(path, how, options.progress);
+  return import_surface(path, how, options.progress);
+}
+
+CompileOptions surface_compiling(const OrganImportOptions& options) {
+  return {.triangles = options.triangles, .progress = options.progress};
+}
+
+/// One surface of another program as an organ. @param stem of its files; what they are goes into `files`
+CompiledMember surface_member(const OrganImportOptions& options, const fs::path& path, const OrganNaming& naming,
+                              const ImportedSurface& source, CompiledOrgan&& organ, const fs::path& stem,
+                              std::vector<SideFile>& files) {
   const OrganSource origin{path.filename().string(), digest::of_file(path), "surface", source.unit, {}, "", ""};
   OrganManifest manifest = common_manifest(options, origin);
   name_organ(naming, manifest);
   manifest.decisions = source.decisions;
   append(manifest.decisions, naming.decisions);
   append(manifest.decisions, source.warnings);
-  CompiledOrgan organ = compile_surface(source.surface, {.triangles = options.triangles, .progress = options.progress});
   organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
   for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
   manifest.mesh = std::move(organ.facts);
@@ -147,8 +154,11 @@ WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::p
     throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
   const std::string by_default =
       options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part});
+  const OrganNaming naming = name_surface(options, by_default);
+  const ImportedSurface source = read_surface(options, path, naming);
   WrittenOrgans written;
-  written.organs.push_back(surface_member(options, path, name_surface(options, by_default), stem, written.files));
+  written.organs.push_back(surface_member(
+      options, path, naming, source, compile_surface(source.surface, surface_compiling(options)), stem, written.files));
   return written;
 }
 
@@ -199,16 +209,21 @@ std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const s
 }
 
 /// What lies against what, by names. Triangles are common only where neither organ was meshed alone.
+void add_contacts(const CompiledScene& scene, const std::vector<CompiledMember>& organs, OrganSet& set) {
+  const auto name = [&](std::size_t organ) { return organs[organ].manifest.name; };
+  for (const SharedInterface& shared : scene.shared)
+    set.contacts.push_back({name(shared.first), name(shared.second), shared.area_m2, !shared.triangles.empty()});
+}
+
 OrganSet set_of(const OrganImportOptions& options, const LabelMap& map, const CompiledScene& scene,
                 const std::vector<CompiledMember>& organs) {
   OrganSet set;
   set.subject = subject_of(options, organs);
-  const auto name = [&](std::size_t organ) { return organs[organ].manifest.name; };
-  for (const SharedInterface& shared : scene.shared)
-    set.contacts.push_back({name(shared.first), name(shared.second), shared.area_m2, !shared.triangles.empty()});
+  add_contacts(scene, organs, set);
   const LabelWords words(map, options.label_table);
   for (const Attachment& attachment : scene.attachments)
-    set.attachments.push_back({name(attachment.organ), words(attachment), attachment.area_m2, attachment.triangles});
+    set.attachments.push_back(
+        {organs[attachment.organ].manifest.name, words(attachment), attachment.area_m2, attachment.triangles});
   return set;
 }
 
@@ -248,24 +263,37 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   return written;
 }
 
-/// Several surfaces as one scene, each called like its file. What lies against what is not looked for.
+/// Several surfaces as one scene, each called like its file. What lies against what is told by the triangles that they
+/// have in common, and by nothing else.
 WrittenOrgans import_surface_scene(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
   if (!options.labels.empty() || options.threshold.window || !options.surface.part.empty())
     throw InputError("--labels, --threshold and --part do not go with several surfaces");
   const std::vector<OrganFile> chosen = files.chosen(files.surfaces, options.label);
-  WrittenOrgans written;
-  std::set<std::string> names;
+  std::vector<OrganImportOptions> each;
+  std::vector<OrganNaming> names;
+  std::set<std::string> seen;
   for (const OrganFile& file : chosen) {
-    OrganImportOptions one = options;
+    OrganImportOptions& one = each.emplace_back(options);
     one.name = file_name_of({0, 0, file.name});
-    if (!names.insert(one.name).second)
+    if (!seen.insert(one.name).second)
       throw InputError(file.path.string() + ": another file is called \"" + one.name + "\" too: rename one of them");
-    written.organs.push_back(
-        surface_member(one, file.path, name_surface(one, one.name), member_stem(stem, one.name), written.files));
+    names.push_back(name_surface(one, one.name));
   }
+  std::vector<ImportedSurface> sources;
+  std::vector<TriangleSurface> surfaces;
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    sources.push_back(read_surface(each[n], chosen[n].path, names[n]));
+    surfaces.push_back(std::move(sources.back().surface));
+  }
+  CompiledScene scene = compile_surfaces(surfaces, surface_compiling(options));
+  WrittenOrgans written;
+  for (std::size_t n = 0; n < chosen.size(); ++n)
+    written.organs.push_back(surface_member(each[n], chosen[n].path, names[n], sources[n], std::move(scene.organs[n]),
+                                            member_stem(stem, each[n].name), written.files));
   OrganSet set;
   set.name = options.name.empty() ? stem.filename().string() : options.name;
   set.subject = subject_of(options, written.organs);
+  add_contacts(scene, written.organs, set);
   written.set = std::move(set);
   return written;
 }

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "haptics/least_turn.h"
+
 namespace trocar {
 namespace {
 
@@ -19,9 +21,7 @@ constexpr double kRolledCosine = 0.990;   // 8 deg
 constexpr double kBreakAway = 0.05;       // of the way from mu_s to mu(v) a period
 constexpr double kAgeing = 0.02;          // of the way back to mu_s a period at rest
 
-Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to) * v;
-}
+Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) { return least_turn(from, to) * v; }
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal * normal.dot(v); }
 

@@ -17,6 +17,7 @@ constexpr int kSweeps = 4;     // pushes a step over all near triangles
 constexpr int kShareRounds = 12;
 constexpr double kShareGain = 1e-10;     // m, a contact that would carry less is not asked
 constexpr double kSingularGram = 1e-12;  // determinant of the normals' products
+constexpr double kMostWedge = 10;        // of the depth: what all contacts together carry of it, however they oppose
 constexpr int kMostFall = 32;            // of half a radius in the air between two surfaces: 20 mm with jaws
 constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
 constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
@@ -430,11 +431,19 @@ void ContactRenderer::balance(const Vec3& y) {
       return;
     }
     const Vec3 share = gram.inverse() * wanted;
-    double reach = 1;  // how far towards that solution all shares stay positive
+    double reach = 1;  // how far towards that solution all shares stay positive, and are borne
+    double sum_now = 0, sum_then = 0;
     for (int i = 0; i < carrying_count_; ++i) {
       const double now = touch_[carrying_[i]].share;
       if (share[i] <= 0) reach = std::min(reach, now / (now - share[i]));
+      sum_now += now;
+      sum_then += share[i];
     }
+    // Planes that nearly face each other would have to press by a thousand times what they hold, and friction with
+    // them.
+    const double most = kMostWedge * y.norm();
+    const bool wedged = sum_then > most;
+    if (wedged) reach = std::min(reach, std::max(0.0, most - sum_now) / (sum_then - sum_now));
     int kept = 0;
     for (int i = 0; i < carrying_count_; ++i) {
       double& now = touch_[carrying_[i]].share;
@@ -445,8 +454,9 @@ void ContactRenderer::balance(const Vec3& y) {
         carrying_[kept++] = carrying_[i];
       }
     }
-    if (kept == carrying_count_) return;
+    const bool settled = kept == carrying_count_ || wedged;
     carrying_count_ = kept;
+    if (settled) return;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/least_turn.h"
+
 namespace trocar {
 namespace {
 
@@ -27,7 +29,7 @@ Capsule held_capsule(const HeldObject& held) {
   Capsule capsule;
   const Vec3 axis = held.from_I - held.to_I;
   capsule.length_m = axis.norm();
-  if (capsule.length_m > 0) capsule.X_IC.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+  if (capsule.length_m > 0) capsule.X_IC.R = least_turn(Vec3::UnitZ(), axis).toRotationMatrix();
   capsule.X_IC.p = held.from_I;
   capsule.radius_m = held.radius_m;
   return capsule;

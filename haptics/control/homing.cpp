@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 
@@ -28,7 +29,7 @@ void Homing::begin() {
 
 bool Homing::still(const Counts& delta) const {
   for (std::size_t i = 0; i < kChannels; ++i)
-    if (std::abs(delta[i]) > limits_.still_counts[i]) return false;
+    if (std::abs(std::int64_t{delta[i]}) > limits_.still_counts[i]) return false;
   return true;
 }
 
@@ -72,7 +73,7 @@ void Homing::see_motion(const Counts& delta) {
   }
   if (report_.step == HomingStep::kStill && still_s_ >= kRested_s) {
     std::size_t moved = 0;
-    while (moved + 1 < kChannels && std::abs(delta[moved]) <= limits_.still_counts[moved]) ++moved;
+    while (moved + 1 < kChannels && std::abs(std::int64_t{delta[moved]}) <= limits_.still_counts[moved]) ++moved;
     tell(HomingTrouble::kMoved, static_cast<int>(moved), delta[moved]);
   }
   still_s_ = 0;

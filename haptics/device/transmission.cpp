@@ -9,10 +9,9 @@ namespace {
 
 double full_scale_code(int dac_bits) { return std::ldexp(1.0, dac_bits - 1) - 1; }
 
-/// Joint torque per DAC volt.
-double torque_per_volt(const Transmission& t) { return t.amps_per_volt * t.torque_constant / t.ratio; }
-
 }  // namespace
+
+double torque_per_volt(const Transmission& t) { return t.amps_per_volt * t.torque_constant / t.ratio; }
 
 double count_size(const Transmission& t) { return t.ratio * 2 * std::numbers::pi / t.counts_per_turn; }
 

@@ -16,6 +16,9 @@ namespace trocar {
 /// Joint travel of one encoder count, rad (m for the pinch).
 double count_size(const Transmission& transmission);
 
+/// Joint torque per volt of the DAC, N m/V (N/V for the pinch).
+double torque_per_volt(const Transmission& transmission);
+
 /// Largest torque that a channel can deliver at full DAC scale, N m (N for the pinch).
 double max_joint_torque(const Transmission& transmission);
 

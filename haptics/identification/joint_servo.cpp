@@ -89,7 +89,7 @@ JointVector JointServo::latch() {
   home.head<kArmJoints>() = home_angles();
   for (int i = 0; i < kArmJoints; ++i) {
     const auto channel = static_cast<std::size_t>(i);
-    if (std::abs(delta[channel]) > kMostCounts * period_s_ * 1000) {
+    if (std::abs(static_cast<double>(delta[channel])) > kMostCounts * period_s_ * 1000) {
       throw EnvironmentError("device: the counts of joint " + std::to_string(i + 1) + " have jumped by " +
                              std::to_string(delta[channel]));
     }

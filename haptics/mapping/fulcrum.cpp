@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "haptics/least_turn.h"
+
 namespace trocar {
 namespace {
 
 /// Smallest rotation that turns unit vector a into unit vector b.
-Mat3 swing(const Vec3& a, const Vec3& b) { return Eigen::Quaterniond::FromTwoVectors(a, b).toRotationMatrix(); }
+Mat3 swing(const Vec3& a, const Vec3& b) { return least_turn(a, b).toRotationMatrix(); }
 
 /// Twist angle about `axis` of a rotation: the part that is left when the smallest rotation of the axis is taken off.
 double twist(const Mat3& R, const Vec3& axis) {

@@ -11,7 +11,7 @@ namespace {
 using file_units::kMilli;
 
 constexpr std::size_t kMostDucts = 5, kMostSheets = 2;
-constexpr double kLeastHinge = 0.005, kMostTriangles = 800;
+constexpr double kLeastHinge = 0.005, kMostTriangles = 1200;
 constexpr double kKilo = 1e3;
 constexpr double kLeastLength = 0.010, kLeastStep = 0.001;  // m of a path, and between two of its points
 
@@ -84,7 +84,7 @@ std::vector<SheetPlan> read_sheets(StrictTable& document) {
     const double length = sheet.along_m.norm();
     if (length < kLeastHinge) table.fail("hinge_to_mm", "the hinge is shorter than 5 mm");
     if (length * sheet.across_m > kMostTriangles * sheet.edge_m * sheet.edge_m * std::sqrt(3.0) / 4)
-      table.fail("edge_mm", "'edge_mm' makes more than 800 triangles of it");
+      table.fail("edge_mm", "'edge_mm' makes more than 1200 triangles of it");
     table.finish();
     sheets.push_back(std::move(sheet));
   }

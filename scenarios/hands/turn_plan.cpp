@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "haptics/least_turn.h"
 #include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
@@ -21,7 +22,7 @@ TurnPlan::TurnPlan(const Mat3& R_from, const Mat3& R_to, double duration_s) : R_
 
 Wrist::Held Wrist::held(const Mat3& R_TI) const {
   const Vec3 shaft = R_TI.col(2), hinge = R_TI.col(0);
-  const Vec3 unrolled = Eigen::Quaterniond::FromTwoVectors(R_TI_first_.col(2), shaft) * R_TI_first_.col(0);
+  const Vec3 unrolled = least_turn(R_TI_first_.col(2), shaft) * R_TI_first_.col(0);
   return {shaft, std::atan2(unrolled.cross(hinge).dot(shaft), unrolled.dot(hinge))};
 }
 
@@ -32,7 +33,7 @@ Wrist::Held Wrist::held(const Mat3& R_TI, const Held& near) const {
 }
 
 Mat3 Wrist::holding(const Held& held) const {
-  const Eigen::Quaterniond swing = Eigen::Quaterniond::FromTwoVectors(R_TI_first_.col(2), held.shaft_T);
+  const Eigen::Quaterniond swing = least_turn(R_TI_first_.col(2), held.shaft_T);
   return Eigen::AngleAxisd(held.roll_rad, held.shaft_T).toRotationMatrix() * (swing * R_TI_first_);
 }
 

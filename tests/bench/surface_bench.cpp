@@ -24,6 +24,7 @@
 
 #include "haptics/contact/contact_renderer.h"
 #include "haptics/contact/segment_triangle.h"
+#include "haptics/least_turn.h"
 #include "tissue/collision/patch_extraction.h"
 
 namespace {
@@ -102,7 +103,7 @@ class Organ {
     const Vec3 along = place(direction(1e-4, 0), t_s) - p, across = place(direction(0, 1e-4), t_s) - p;
     const Vec3 normal = along.cross(across).dot(p) > 0 ? along.cross(across).normalized().eval()
                                                        : across.cross(along).normalized().eval();
-    const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -normal).toRotationMatrix() *
+    const Mat3 R = least_turn(Vec3::UnitZ(), -normal).toRotationMatrix() *
                    Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
     return {R, p + normal * (ToolShape{}.radius_m - kDepth + lift_m)};
   }
@@ -267,7 +268,7 @@ class FclSurface {
  private:
   static std::pair<fcl::Capsuled, fcl::Transform3d> placed(const QuerySegment& axis, double radius) {
     fcl::Transform3d X = fcl::Transform3d::Identity();
-    X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis.b - axis.a).toRotationMatrix();
+    X.linear() = least_turn(Vec3::UnitZ(), axis.b - axis.a).toRotationMatrix();
     X.translation() = (axis.a + axis.b) / 2;
     return {fcl::Capsuled(radius, (axis.b - axis.a).norm()), X};
   }

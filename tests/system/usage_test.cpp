@@ -51,7 +51,8 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"device fk", {"--deg", "--csv", "--out", "--json"}},
       {"device calibrate", {"--seed", "--gain", "--out", "--check", "--json"}},
       {"device eval", {"--csv", "--out", "--device"}},
-      {"device identify", {"--seed", "--poses", "--span", "--payload", "--quick", "--out", "--json"}},
+      {"device identify",
+       {"--seed", "--poses", "--span", "--payload", "--sensor", "--calibration-out", "--quick", "--out", "--json"}},
       {"device ik", {"--csv", "--out"}},
       {"organ", {"import", "info", "render", "phantom"}},
       {"organ import", {"--labels", "--label", "--triangles", "--unit", "-o", "--json"}},
@@ -260,7 +261,7 @@ TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
 
 TEST_F(Usage, CatalogueListsAndExplains) {
   const Json catalogue = json_of({"exercises", "--json"}, 0);
-  ASSERT_EQ(catalogue.size(), 10u);
+  ASSERT_EQ(catalogue.size(), 13u);
   EXPECT_EQ(catalogue[1]["id"], "surface-touch");
   EXPECT_EQ(catalogue[1]["number"], "E02");
   EXPECT_EQ(catalogue[1]["rubric_sha256"].get<std::string>().size(), 64u);

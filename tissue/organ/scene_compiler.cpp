@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "haptics/input_error.h"
@@ -23,7 +24,8 @@ constexpr double kSlopePerVoxel = 0.61;              ///< of the field across a 
 constexpr SmoothingWidths kContactWidths{1.1, 0.6};  ///< of the broad fields that give the common outline near contacts
 constexpr std::size_t kLeastSamples = 8;
 constexpr std::size_t kMostFieldSamples = 120'000'000;
-constexpr int kReach = 2;  ///< voxels: organs no farther apart are meshed together
+constexpr double kEvenShare = 0.99;  ///< of a surface's triangles without an angle below 15 degrees: even enough
+constexpr int kReach = 2;            ///< voxels: organs no farther apart are meshed together
 
 /// One organ of a group that is meshed together.
 struct Member {
@@ -107,6 +109,38 @@ void give_back(Member& member, const LabelVolume& volume, const std::set<int>& n
   cavities.erase(std::find(cavities.begin(), cavities.end(), 0U), cavities.end());
 }
 
+double area_m2(const TriangleSurface& surface, std::size_t t) {
+  const auto at = [&](std::size_t n) -> const Vec3& {
+    return surface.vertices[static_cast<std::size_t>(surface.triangles[t][n])];
+  };
+  return (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+}
+
+/// What organs of a complex have in common. @param sources triangle of the complex of each triangle of region 1, 2, ...
+/// @param organs number in the scene of region 1, 2, ...
+void add_shared(const LabelComplex& complex, const std::vector<std::vector<std::int32_t>>& sources,
+                const std::vector<std::size_t>& organs, CompiledScene& scene) {
+  std::vector<std::array<std::int32_t, 2>> number(complex.triangles.size(), {-1, -1});  // in the first and second organ
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    for (std::size_t t = 0; t < sources[n].size(); ++t) {
+      const auto from = static_cast<std::size_t>(sources[n][t]);
+      number[from][complex.regions[from][0] == static_cast<std::int16_t>(n + 1) ? 0 : 1] = static_cast<std::int32_t>(t);
+    }
+  std::map<std::array<std::size_t, 2>, SharedInterface> found;
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    if (complex.regions[t][0] == 0) continue;
+    std::array<std::size_t, 2> pair{organs[static_cast<std::size_t>(complex.regions[t][0] - 1)],
+                                    organs[static_cast<std::size_t>(complex.regions[t][1] - 1)]};
+    auto numbers = number[t];
+    if (pair[0] > pair[1]) std::swap(pair[0], pair[1]), std::swap(numbers[0], numbers[1]);
+    SharedInterface& shared = found[pair];
+    shared.first = pair[0], shared.second = pair[1];
+    shared.area_m2 += area_m2(scene.organs[pair[0]].surface, static_cast<std::size_t>(numbers[0]));
+    shared.triangles.push_back(numbers);
+  }
+  for (auto& [pair, shared] : found) scene.shared.push_back(std::move(shared));
+}
+
 class GroupCompiler {
  public:
   GroupCompiler(const LabelVolume& volume, const std::vector<SceneRequest>& requests,
@@ -128,7 +162,9 @@ class GroupCompiler {
     LabelComplex dense = dense_complex();
     const LabelComplex result = coarse_complex(dense);
     add_organs(result, scene);
-    add_shared(result, scene);
+    std::vector<std::size_t> organs;
+    for (const Member& m : members_) organs.push_back(m.request);
+    add_shared(result, sources_, organs, scene);
     add_attachments(result, scene);
   }
 
@@ -240,30 +276,6 @@ class GroupCompiler {
     }
   }
 
-  void add_shared(const LabelComplex& complex, CompiledScene& scene) const {
-    std::vector<std::array<std::int32_t, 2>> number(complex.triangles.size(),
-                                                    {-1, -1});  // in the first and second organ
-    for (std::size_t n = 0; n < members_.size(); ++n)
-      for (std::size_t t = 0; t < sources_[n].size(); ++t) {
-        const auto from = static_cast<std::size_t>(sources_[n][t]);
-        number[from][complex.regions[from][0] == static_cast<std::int16_t>(n + 1) ? 0 : 1] =
-            static_cast<std::int32_t>(t);
-      }
-    std::map<std::array<std::size_t, 2>, SharedInterface> found;
-    for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
-      if (complex.regions[t][0] == 0) continue;
-      std::array<std::size_t, 2> organs{members_[static_cast<std::size_t>(complex.regions[t][0] - 1)].request,
-                                        members_[static_cast<std::size_t>(complex.regions[t][1] - 1)].request};
-      auto numbers = number[t];
-      if (organs[0] > organs[1]) std::swap(organs[0], organs[1]), std::swap(numbers[0], numbers[1]);
-      SharedInterface& shared = found[organs];
-      shared.first = organs[0], shared.second = organs[1];
-      shared.area_m2 += area_m2(scene.organs[organs[0]].surface, static_cast<std::size_t>(numbers[0]));
-      shared.triangles.push_back(numbers);
-    }
-    for (auto& [organs, shared] : found) scene.shared.push_back(std::move(shared));
-  }
-
   void add_attachments(const LabelComplex& complex, CompiledScene& scene) const {
     for (std::size_t n = 0; n < members_.size(); ++n) {
       std::vector<bool> free(sources_[n].size(), false);
@@ -274,13 +286,6 @@ class GroupCompiler {
   }
 
  public:
-  static double area_m2(const TriangleSurface& surface, std::size_t t) {
-    const auto at = [&](std::size_t n) -> const Vec3& {
-      return surface.vertices[static_cast<std::size_t>(surface.triangles[t][n])];
-    };
-    return (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
-  }
-
   /// Looks one voxel out of every free triangle for a label that was not asked for.
   static void attach(const LabelVolume& volume, const std::vector<SceneRequest>& requests, std::size_t organ,
                      const std::vector<bool>& free, CompiledScene& scene) {
@@ -329,7 +334,158 @@ void compile_alone(const LabelVolume& volume, const std::vector<SceneRequest>& r
   GroupCompiler::attach(volume, requests, n, std::vector<bool>(scene.organs[n].surface.triangles.size(), true), scene);
 }
 
+/// Closed surfaces of one scene, and which of them have triangles in common: the same places to the bit, wound the
+/// other way round.
+class SurfaceGroups {
+ public:
+  explicit SurfaceGroups(const std::vector<TriangleSurface>& surfaces) : surfaces_(surfaces) {
+    number_places();
+    find_common();
+  }
+
+  const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
+
+  /// The surfaces of a group as regions 1, 2, ...
+  LabelComplex complex(const std::vector<std::size_t>& group) const {
+    LabelComplex result;
+    std::map<std::int32_t, std::int32_t> numbers;
+    std::map<std::size_t, std::int16_t> region;
+    for (const std::size_t s : group) region.emplace(s, static_cast<std::int16_t>(region.size() + 1));
+    for (const std::size_t s : group)
+      for (std::size_t t = 0; t < surfaces_[s].triangles.size(); ++t) {
+        const auto other = beyond_.find({s, t});
+        if (other != beyond_.end() && other->second < s) continue;
+        std::array<std::int32_t, 3> triangle;
+        for (std::size_t n = 0; n < 3; ++n) {
+          const auto vertex = static_cast<std::size_t>(surfaces_[s].triangles[t][n]);
+          const auto [at, fresh] =
+              numbers.emplace(place_[s][vertex], static_cast<std::int32_t>(result.vertices.size()));
+          if (fresh) result.vertices.push_back(surfaces_[s].vertices[vertex]);
+          triangle[n] = at->second;
+        }
+        const bool free = other == beyond_.end();
+        if (free) std::swap(triangle[1], triangle[2]);
+        result.triangles.push_back(triangle);
+        result.regions.push_back(free ? std::array<std::int16_t, 2>{0, region.at(s)}
+                                      : std::array<std::int16_t, 2>{region.at(s), region.at(other->second)});
+      }
+    return result;
+  }
+
+ private:
+  /// Equal places of all surfaces get one number, from 0. A surface that comes back to a place shares nothing.
+  void number_places() {
+    std::vector<std::pair<std::size_t, std::size_t>> order;
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      place_.emplace_back(surfaces_[s].vertices.size());
+      for (std::size_t v = 0; v < place_[s].size(); ++v) order.emplace_back(s, v);
+    }
+    const auto at = [&](const auto& one) -> const Vec3& { return surfaces_[one.first].vertices[one.second]; };
+    std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+      const Vec3 &p = at(a), &q = at(b);
+      return std::tuple(p.x(), p.y(), p.z(), a) < std::tuple(q.x(), q.y(), q.z(), b);
+    });
+    alone_.assign(surfaces_.size(), false);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      const bool same = n > 0 && at(order[n]) == at(order[n - 1]);
+      if (same && order[n].first == order[n - 1].first) alone_[order[n].first] = true;
+      if (same) met_.back() = true;
+      if (!same) met_.push_back(false);
+      place_[order[n].first][order[n].second] = static_cast<std::int32_t>(met_.size()) - 1;
+    }
+  }
+
+  /// A triangle has one other side: of an organ that is there twice, the second shares nothing.
+  void find_common() {
+    using Side = std::pair<std::size_t, std::size_t>;  // surface, triangle
+    std::map<std::array<std::int32_t, 3>, Side> seen;
+    std::vector<std::size_t> root(surfaces_.size());
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      root[s] = s;
+      for (std::size_t t = 0; t < surfaces_[s].triangles.size() && !alone_[s]; ++t) {
+        std::array<std::int32_t, 3> places;
+        for (std::size_t n = 0; n < 3; ++n)
+          places[n] = place_[s][static_cast<std::size_t>(surfaces_[s].triangles[t][n])];
+        if (!std::all_of(places.begin(), places.end(),
+                         [&](std::int32_t p) { return met_[static_cast<std::size_t>(p)]; }))
+          continue;
+        std::rotate(places.begin(), std::min_element(places.begin(), places.end()), places.end());
+        seen.emplace(places, Side(s, t));
+        const auto other = seen.find({places[0], places[2], places[1]});
+        if (other == seen.end() || other->second.first == s || beyond_.contains(other->second)) continue;
+        beyond_[{s, t}] = other->second.first;
+        beyond_[other->second] = s;
+        std::replace(root.begin(), root.end(), std::max(root[s], root[other->second.first]),
+                     std::min(root[s], root[other->second.first]));
+      }
+    }
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) members[root[s]].push_back(s);
+    for (auto& [first, group] : members) groups_.push_back(std::move(group));
+  }
+
+  const std::vector<TriangleSurface>& surfaces_;
+  std::vector<std::vector<std::int32_t>> place_;  ///< of each vertex of each surface
+  std::vector<bool> alone_;
+  std::vector<bool> met_;                                              ///< places at which several surfaces are
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> beyond_;  ///< surface on the other side of a triangle
+  std::vector<std::vector<std::size_t>> groups_;
+};
+
+/// Whether a surface is already as remeshing would leave it.
+bool even_and_coarse(const TriangleSurface& surface, int triangles) {
+  return surface.triangles.size() <= static_cast<std::size_t>(triangles) &&
+         mesh_quality(surface).share_above_15 >= kEvenShare;
+}
+
+void compile_together(const std::vector<TriangleSurface>& surfaces, const SurfaceGroups& groups,
+                      const std::vector<std::size_t>& group, const CompileOptions& options, CompiledScene& scene) {
+  LabelComplex complex = groups.complex(group);
+  const bool kept = std::all_of(group.begin(), group.end(),
+                                [&](std::size_t s) { return even_and_coarse(surfaces[s], options.triangles); });
+  if (!kept) {
+    ComplexRemeshOptions remesh;
+    std::vector<double> volumes_m3;
+    double area = 0;
+    for (const std::size_t s : group) {
+      remesh.triangles.push_back(std::min(options.triangles, static_cast<int>(surfaces[s].triangles.size())));
+      volumes_m3.push_back(surfaces[s].volume_m3());
+      area += surface_area_m2(surfaces[s]);
+    }
+    const double edge_m = std::sqrt(area / static_cast<double>(complex.triangles.size()));
+    remesh.smoothing_m = edge_m, remesh.progress = options.progress;
+    complex = remeshed(complex, remesh);
+    LabelComplex full = complex;
+    trocar::correct_volumes(full, volumes_m3, 0.1 * edge_m, CapKeeper({}, full.vertices));
+    move_without_crossing(complex, full.vertices);
+  }
+  std::vector<std::vector<std::int32_t>> sources;
+  for (std::size_t n = 0; n < group.size(); ++n) {
+    report(options.progress, "measuring", static_cast<double>(n) / static_cast<double>(group.size()));
+    const TriangleSurface& source = surfaces[group[n]];
+    CompiledOrgan& organ = scene.organs[group[n]];
+    organ.surface = complex.border(static_cast<int>(n + 1), &sources.emplace_back());
+    organ.facts.repairs.push_back(kept ? "kept as it came: even already, and it shares triangles with its neighbours"
+                                       : "remeshed together with the neighbours that it shares triangles with, to " +
+                                             std::to_string(organ.surface.triangles.size()));
+    organ.facts.self_intersections = count_self_intersections(organ.surface);
+    measure(organ.surface, source.volume_m3(), source, volume_centroid_m(source), organ.facts);
+  }
+  add_shared(complex, sources, group, scene);
+}
+
 }  // namespace
+
+CompiledScene compile_surfaces(const std::vector<TriangleSurface>& surfaces, const CompileOptions& options) {
+  CompiledScene scene;
+  scene.organs.resize(surfaces.size());
+  const SurfaceGroups groups(surfaces);
+  for (const auto& group : groups.groups()) {
+    if (group.size() == 1) scene.organs[group[0]] = compile_surface(surfaces[group[0]], options);
+    if (group.size() > 1) compile_together(surfaces, groups, group, options, scene);
+  }
+  return scene;
+}
 
 CompiledScene compile_scene(const LabelMap& map, const std::vector<SceneRequest>& requests,
                             const SceneOptions& options) {

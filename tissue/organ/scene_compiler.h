@@ -53,4 +53,9 @@ struct CompiledScene {
 CompiledScene compile_scene(const LabelMap& map, const std::vector<SceneRequest>& requests,
                             const SceneOptions& options);
 
+/// Surfaces that came as such. Those that have triangles in common (the same corners to the bit, wound the other way
+/// round), as segments that were smoothed together do, keep them in common; the others are compiled each for itself.
+/// @param surfaces each as compile_surface() wants it
+CompiledScene compile_surfaces(const std::vector<TriangleSurface>& surfaces, const CompileOptions& options);
+
 }  // namespace trocar

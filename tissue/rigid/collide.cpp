@@ -4,6 +4,8 @@
 
 #include <fcl/fcl.h>
 
+#include "haptics/least_turn.h"
+
 namespace trocar {
 namespace {
 
@@ -19,7 +21,7 @@ fcl::Transform3d transform(const Pose& X) {
 
 fcl::Transform3d along(const Vec3& middle, const Vec3& axis) {
   fcl::Transform3d out = fcl::Transform3d::Identity();
-  if (axis.norm() > 0) out.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+  if (axis.norm() > 0) out.linear() = least_turn(Vec3::UnitZ(), axis).toRotationMatrix();
   out.translation() = middle;
   return out;
 }

@@ -9,8 +9,8 @@
 //
 // A sheet in a frame is stretched by clips along its rim and has no organ beneath. Blades cut it with their tips alone:
 // where they press on it and close, along the plane in which they move, as far as they stood open and no further than a
-// snip. What was cut is told to the place (seen_cuts()); the mesh comes apart along the edges that are nearest, whose
-// nodes are moved onto the cut where its triangles allow it.
+// snip. What was cut is told to the place (seen_cuts()); the mesh comes apart along the edges that are nearest,
+// which may lie an edge beside the cut.
 #pragma once
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 namespace trocar {
 
@@ -14,8 +15,10 @@ struct IdentifyOptions {
   double payload_kg = 0;  ///< a mass on the stylus, 30 mm down the roll axis, that nobody tells the identifier
   bool quick = false;     ///< 20 poses, one trajectory
   bool json = false;
-  std::filesystem::path out;         ///< device file (TOML) to write; none when empty
-  std::filesystem::path plant = {};  ///< plant file instead of the device of the seed; empty: none
+  std::filesystem::path out;                   ///< device file (TOML) to write; none when empty
+  std::filesystem::path plant = {};            ///< plant file instead of the device of the seed; empty: none
+  std::string sensor = {};                     ///< "net-ft", "serial": weighs the drives first; empty: no sensor
+  std::filesystem::path calibration_out = {};  ///< what the sensor found of the drives; none when empty
 };
 
 /// @return 0; 1 when the result is physically inconsistent. @throws InputError, EnvironmentError.

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "haptics/contact/contact_renderer.h"
+#include "haptics/least_turn.h"
 #include "tissue/collision/patch_extraction.h"
 
 namespace trocar {
@@ -43,8 +44,8 @@ TriangleSurface ball(int n) {
 /// On a great circle over the ball, pressed in, the shaft leaning back by 30 degrees.
 Pose pressed(double angle, double lift) {
   const Vec3 n(std::sin(angle), 0.3 * std::cos(angle), std::cos(angle));
-  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix() *
-                 Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
+  const Mat3 R =
+      least_turn(Vec3::UnitZ(), -n).toRotationMatrix() * Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
   return {R, n.normalized() * (kBallRadius + ToolShape{}.radius_m - kDepth + lift)};
 }
 

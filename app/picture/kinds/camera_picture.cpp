@@ -4,6 +4,7 @@
 
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/camera/cup.h"
 #include "scenarios/kinds/camera/scope_view.h"
 
@@ -40,7 +41,7 @@ void add_cup(const Cup& cup, const Vec3& ball_colour, bool lit, double plate_z, 
   SceneObject wall;
   wall.shape = Shape::kCup;
   wall.size_m = {cup.bore_m, 2 * cup.outer_radius_m(), cup.depth_m};
-  wall.X_TO.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), cup.axis_T).toRotationMatrix();
+  wall.X_TO.R = least_turn(Vec3::UnitZ(), cup.axis_T).toRotationMatrix();
   wall.X_TO.p = cup.rim_T();
   wall.colour = kCupGrey;
   wall.accent = ball_colour;
@@ -70,7 +71,7 @@ SceneObject middle_ring(const SessionView& view) {
   SceneObject ring;
   ring.shape = Shape::kRing;
   ring.size_m = {diameter, diameter, kRingWire};
-  ring.X_TO.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), forward).toRotationMatrix();
+  ring.X_TO.R = least_turn(Vec3::UnitZ(), forward).toRotationMatrix();
   ring.X_TO.p = camera.eye_T + kRingBefore * forward;
   const DirectorStatus& status = view.director.status();
   const bool inside = status.target_index >= 0 && status.angle_error_rad <= level.centre_rad;

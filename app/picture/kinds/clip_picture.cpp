@@ -2,6 +2,7 @@
 
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/clip/clip_rules.h"
 
 namespace trocar {
@@ -18,7 +19,7 @@ SceneObject ring_round_place(const Target& place, double radius_m, bool lit) {
   const double across = 2 * (radius_m + kRingWider);
   ring.size_m = {across, across, kRingThick};
   const Vec3 along = place.R_TI.col(0);
-  ring.X_TO = {Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along).toRotationMatrix(), place.centre_T};
+  ring.X_TO = {least_turn(Vec3::UnitZ(), along).toRotationMatrix(), place.centre_T};
   return ring;
 }
 

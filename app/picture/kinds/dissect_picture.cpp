@@ -1,5 +1,6 @@
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/dissect/dissect_rules.h"
 
 namespace trocar {
@@ -18,7 +19,7 @@ void add_lit_strand(const SessionView& view, std::vector<SceneObject>& out) {
   ring.style = SceneObject::Style::kGhostLit;
   ring.size_m = {kLitRing, kLitRing, kLitThick};
   const Vec3 along = (path.back() - path.front()).normalized();
-  ring.X_TO = {Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along).toRotationMatrix(), status.demand.centre_T};
+  ring.X_TO = {least_turn(Vec3::UnitZ(), along).toRotationMatrix(), status.demand.centre_T};
   out.push_back(ring);
 }
 

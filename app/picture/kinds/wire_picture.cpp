@@ -4,6 +4,7 @@
 #include "app/picture/kinds/board_object.h"
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/wire/wire_layout.h"
 #include "scenarios/kinds/wire/wire_rules.h"
 
@@ -23,7 +24,7 @@ const Vec3 kBareWire(0.52, 0.52, 0.54), kPassedWire(0.06, 0.30, 0.52);
 const Vec3 kRingColour(0.70, 0.42, 0.06);
 
 /// Its z onto `along`.
-Mat3 z_along(const Vec3& along) { return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along).toRotationMatrix(); }
+Mat3 z_along(const Vec3& along) { return least_turn(Vec3::UnitZ(), along).toRotationMatrix(); }
 
 SceneObject rod(const Vec3& from, const Vec3& to, double radius_m, double longer) {
   SceneObject out;

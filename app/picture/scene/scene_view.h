@@ -65,7 +65,7 @@ struct HudRow {
 
 /// What the column says by itself, in the language that was chosen; {0} is a number.
 struct HudLabels {
-  std::string match = "Match the pen", force = "Force", steps = "Steps", so_far = "So far", device = "Device",
+  std::string match = "Place and direction", force = "Force", steps = "Steps", so_far = "So far", device = "Device",
               tip = "Tip", angle = "Angle", error = "{0} of {1}", limit = "limit {0}", peak = "peak {0}",
               band = "band {0}", more = "+ {0} more after the run";
   std::string decimal = ".";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar {
@@ -66,7 +67,7 @@ TissueFrame between(const TissueFrame& a, const TissueFrame& b, double share, do
 /// As far as it has to be turned, and no farther, for its shaft to be the row's.
 Mat3 along(const Mat3& R_TI, const Vec3& shaft_T) {
   if (!shaft_T.allFinite() || shaft_T.norm() < 0.5) return R_TI;
-  return Eigen::Quaterniond::FromTwoVectors(R_TI.col(2), shaft_T).toRotationMatrix() * R_TI;
+  return least_turn(R_TI.col(2), shaft_T).toRotationMatrix() * R_TI;
 }
 
 TickRecord record_of(const RecordedTick& row, double rate_hz, const InstrumentDetail& detail) {

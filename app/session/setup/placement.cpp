@@ -9,6 +9,7 @@
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "haptics/least_turn.h"
 
 namespace trocar {
 namespace {
@@ -44,7 +45,7 @@ Fulcrum through_port(const ExerciseLevel& level, const InstrumentMap& map) {
   fulcrum.length_m = level.instrument_length_m;
   fulcrum.R_TS_reference = Eigen::AngleAxisd(kHandlePitch, Vec3::UnitX()) * (map.X_TW.R * home_pose().R);
   const Mat3 direct = map.X_TW.R * home_pose().R * map.X_SI.R;
-  fulcrum.R_TI_reference = Eigen::Quaterniond::FromTwoVectors(direct.col(2), -level.port_m).toRotationMatrix() * direct;
+  fulcrum.R_TI_reference = least_turn(direct.col(2), -level.port_m).toRotationMatrix() * direct;
   return fulcrum;
 }
 

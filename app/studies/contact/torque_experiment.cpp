@@ -2,6 +2,7 @@
 
 #include "app/studies/contact/contact_torque_study.h"
 #include "haptics/kinematics/device_geometry.h"
+#include "haptics/least_turn.h"
 
 namespace trocar {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kTurnTravel = 1.2;                   // s, the hand's way in or
 /// Shaft of the tool along Y6 or Z6 of the stylus, its middle in the origin.
 Pose shaft_along(int axis) {
   Pose X_SI;
-  X_SI.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::Unit(axis)).toRotationMatrix();
+  X_SI.R = least_turn(Vec3::UnitZ(), Vec3::Unit(axis)).toRotationMatrix();
   X_SI.p = kHalfLength * Vec3::Unit(axis);
   return X_SI;
 }

@@ -3,24 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include <Eigen/LU>
 
 #include "app/device_bench/plant_bench.h"
 #include "app/session/calibration/amplifier_calibration.h"
-#include "app/studies/contact/bare_control_loop.h"
 #include "app/studies/device/bar_drawing.h"
+#include "app/studies/device/held_stylus.h"
 #include "app/studies/study_files.h"
-#include "haptics/force_sensor/ati/fake_sensor.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/kinematics/device_geometry.h"
-#include "haptics/kinematics/inverse_kinematics.h"
-#include "scenarios/hands/minimum_jerk.h"
 
 namespace trocar {
 namespace {
@@ -42,22 +38,8 @@ const std::array<Case, 6>& cases() {
   return all;
 }
 
-constexpr double kAside = 2.5 * kDegree;  // every joint, from where the fixture comes
-constexpr double kWay_s = 0.8, kRest_s = 0.4, kRead_s = 1.0;
 constexpr int kHands = 10;
-constexpr double kHeldMoment = 0.1;    // N m
-constexpr double kMomentNoise = 5e-4;  // N m [assumed, with the sensor's 20 mN]
-
-/// Stiffer than any hand: 0.2 mm under 1 N, 1 deg under 1 N m.
-HandParameters fixture() {
-  HandParameters p;
-  p.grip_stiffness = 5000, p.grip_damping = 30;
-  p.hand_mass = 0.5, p.arm_stiffness = 2e4, p.arm_damping = 200;
-  p.turn_stiffness = 60, p.turn_damping = 0.3;
-  p.moment_limit_nm = 5;
-  p.tremor_m = 0;
-  return p;
-}
+constexpr double kHeldMoment = 0.1;  // N m
 
 /// The device without friction and without any error of its electronics: what the static map alone does.
 PlantParameters ideal() {
@@ -66,141 +48,12 @@ PlantParameters ideal() {
   return p;
 }
 
-/// Weight and inertia of what hangs on the sensor, in the stylus frame, sample by sample.
-class FixtureLoad {
- public:
-  /// @param X of the stylus in W'; its acceleration by its last two differences.
-  Wrench at(const Pose& X, double period_s) {
-    const Vec3 v = known_ > 0 ? Vec3((X.p - p_) / period_s) : Vec3::Zero();
-    const Vec3 a = known_ > 1 ? Vec3((v - v_) / period_s) : Vec3::Zero();
-    p_ = X.p, v_ = v, known_ = std::min(2, known_ + 1);
-    const Vec3 force = X.R.transpose() * (kFixture_kg * (Vec3(0, 0, -kGravity) - a));
-    return {force, kFixtureCom_S.cross(force)};
-  }
+Wrench wrench_of(const Case& c) { return c.moment ? Wrench{Vec3::Zero(), c.axis_S} : Wrench{c.axis_S, Vec3::Zero()}; }
 
- private:
-  static constexpr double kFixture_kg = 0.08;          // [assumed]
-  static inline const Vec3 kFixtureCom_S{0, 0, 0.02};  // m [assumed]
-  Vec3 p_ = Vec3::Zero(), v_ = Vec3::Zero();
-  int known_ = 0;
-};
-
-/// The fixture with its sensor, and the device that renders a wrench against it.
-class ForceBench {
- public:
-  /// @param line "net-ft", "serial": the readings come through that sensor's driver; empty: as they are.
-  ForceBench(const PlantParameters& truth, const DeviceModel& model, const ForceSensorConfig& sensor,
-             const ForceSensorConfig& moments, std::uint64_t seed, const HandParameters& holds = fixture(),
-             const std::string& line = "")
-      : line_(line.empty() ? nullptr : std::make_unique<SensorLine>(line)),
-        daq_(config(truth, holds)),
-        force_(sensor, seed),
-        moment_(moments, seed + 1),
-        home_(daq_.sense()),
-        loop_(
-            daq_, [this](const ArmState& arm) { return torque(arm); }, home_angles(), model) {
-    run(
-        kRest_s, [](double) { return 0.0; }, nullptr);
-    if (line_) line_->bias();
-  }
-
-  int taken() const { return taken_; }        ///< readings that counted
-  int left_out() const { return left_out_; }  ///< of the readings asked for, those that the sensor did not vouch for
-
-  /// Mean reading from both sides, in the stylus frame. @param wrench whether the device renders the case.
-  Wrench read(const Case& c, bool wrench) {
-    wanted_ = &c, on_ = wrench;
-    const auto from = [&](double sign) {
-      run(
-          kWay_s, [&](double s) { return sign * minimum_jerk(s); }, nullptr);
-      run(
-          kWay_s, [&](double s) { return sign * (1 - minimum_jerk(s)); }, nullptr);
-      return read_at_rest();
-    };
-    const Wrench above = from(1);
-    return (above + from(-1)) * 0.5;
-  }
-
-  /// Mean reading where the stylus is held, without coming from anywhere: friction hides what it can.
-  Wrench read_as_held(const Case& c, double share) {
-    wanted_ = &c, on_ = share > 0, share_ = share;
-    return read_at_rest();
-  }
-
- private:
-  static SimulatedDaqConfig config(const PlantParameters& truth, const HandParameters& holds) {
-    SimulatedDaqConfig c;
-    c.plant = truth;
-    c.hand = holds;
-    return c;
-  }
-  JointVector torque(const ArmState& arm) const {
-    if (!on_ || !wanted_) return JointVector::Zero();
-    Vec6 w = Vec6::Zero();
-    (wanted_->moment ? w.tail<3>() : w.head<3>()) = share_ * (arm.X_WS.R * wanted_->axis_S);
-    return arm.J_WS.transpose() * w;
-  }
-  Wrench read_at_rest() {
-    Wrench sum;
-    double samples = 0;
-    run(
-        kRest_s, [](double) { return 0.0; }, nullptr);
-    run(
-        kRead_s, [](double) { return 0.0; }, [&](const Wrench& reading) { sum = sum + reading, samples += 1; });
-    return sum * (1 / samples);
-  }
-  /// @param aside share of kAside of the joints at which the fixture holds, by the share of time.
-  template <class Place>
-  void run(double seconds, Place aside, std::function<void(const Wrench&)> take) {
-    const double rate = daq_.capabilities().rate_hz;
-    const long n = std::lround(seconds * rate), every = std::lround(rate / force_.config().rate_hz);
-    for (long k = 1; k <= n; ++k) {
-      const double way = aside(static_cast<double>(k) / static_cast<double>(n));
-      const Pose from_home =
-          home_pose().inverse() * arm_state(home_angles() + JointVector::Constant(kAside * way)).X_WS;
-      daq_.set_hand_intent(home_.X_BS * from_home, home_.jaw_opening_m);
-      loop_.tick();
-      if (k % every != 0) continue;
-      const HandSense now = daq_.sense();
-      const Mat3 R = now.X_BS.R.transpose();
-      if (!line_) {
-        const Wrench reading{force_.sample(R * now.force_on_hand).force, moment_.sample(R * now.moment_on_hand).force};
-        if (take) take(reading), ++taken_;
-        continue;
-      }
-      const double period_s = 1 / force_.config().rate_hz;
-      const Wrench hung = true_.at(now.X_BS, period_s);
-      const Wrench acting{force_.sample(R * now.force_on_hand + hung.force).force,
-                          moment_.sample(R * now.moment_on_hand + hung.moment).force};
-      const std::optional<Wrench> reading = line_->pass(acting);
-      const Wrench then = remembered(believed_.at(loop_.arm().X_WS, period_s));
-      if (!take) continue;
-      if (reading)
-        take(*reading + then * -1), ++taken_;
-      else
-        ++left_out_;
-    }
-  }
-
-  /// What hangs on the sensor, as the loop knew it when the reading was true.
-  Wrench remembered(const Wrench& now) {
-    hung_.push_back(now);
-    const std::size_t back = force_.delay();
-    return hung_[hung_.size() > back ? hung_.size() - 1 - back : 0];
-  }
-
-  std::unique_ptr<SensorLine> line_;
-  FixtureLoad true_, believed_;
-  std::vector<Wrench> hung_;
-  int taken_ = 0, left_out_ = 0;
-  SimulatedDaq daq_;
-  SimulatedForceSensor force_, moment_;
-  HandSense home_;
-  const Case* wanted_ = nullptr;
-  bool on_ = false;
-  double share_ = 1;  ///< of the case's wrench
-  BareControlLoop loop_;
-};
+/// The torques that the device renders for a case. @param share of its wrench.
+TorqueLaw law_of(const Case& c, double share = 1) {
+  return [w_S = wrench_of(c) * share](const ArmState& arm) { return torques_of_wrench(arm, w_S); };
+}
 
 struct Error {
   double direction_deg = 0, magnitude = 0;  ///< the latter as a share
@@ -212,8 +65,8 @@ Error error_of(const Case& c, const Wrench& reading) {
   return {angle < 1e-9 ? 0 : angle, measured.norm() - 1};  // rounding is no finding
 }
 
-Error measured_error(ForceBench& bench, const Case& c) {
-  const Wrench with = bench.read(c, true), without = bench.read(c, false);
+Error measured_error(HeldStylus& bench, const Case& c) {
+  const Wrench with = bench.read(law_of(c)), without = bench.read({});
   return error_of(c, with + without * -1);
 }
 
@@ -224,10 +77,8 @@ Error map_error(const Case& c) {
   DevicePlant plant(nominal_parameters());
   const ArmState arm = arm_state(home_angles());
   plant.place(arm.q, 0.02);
-  Vec6 w = Vec6::Zero();
-  (c.moment ? w.tail<3>() : w.head<3>()) = arm.X_WS.R * c.axis_S;
   ChannelVector torque = ChannelVector::Zero();
-  torque.head<kArmJoints>() = arm.J_WS.transpose() * w;
+  torque.head<kArmJoints>() = torques_of_wrench(arm, wrench_of(c));
   constexpr int kBits = 16;
   const JointVector asked = torques_of(model, dac_codes(model, torque, kBits), kBits).head<kArmJoints>();
   const Vec6 made = plant.joint_jacobian().transpose().partialPivLu().solve(asked);
@@ -245,14 +96,15 @@ DeviceModel calibrated_model(const PlantParameters& truth, std::uint64_t seed) {
 
 /// As the thesis measured: the stylus in a hand, amplifiers as they come, the wrench switched on where the hand is.
 /// Mean direction over drawn arms and hands; a hand holds no more than kHeldMoment.
-Error held_error(const Case& c, const StudyRequest& request, const ForceSensorConfig& moments) {
+Error held_error(const Case& c, const StudyRequest& request) {
   Error mean;
   const int hands = request.quick ? 2 : kHands;
   const double share = c.moment ? kHeldMoment : 1;
   for (int i = 0; i < hands; ++i) {
     const std::uint64_t seed = request.seed + static_cast<std::uint64_t>(i);
-    ForceBench bench(draw_parameters(seed), {}, {}, moments, seed, draw_hand_parameters(GripPreset::kNormal, seed));
-    const Wrench without = bench.read_as_held(c, 0), with = bench.read_as_held(c, share);
+    HeldStylus bench(
+        {.truth = draw_parameters(seed), .seed = seed, .holds = draw_hand_parameters(GripPreset::kNormal, seed)});
+    const Wrench without = bench.read_as_held({}), with = bench.read_as_held(law_of(c, share));
     const Error one = error_of(c, (with + without * -1) * (1 / share));
     mean.direction_deg += one.direction_deg / hands;
     mean.magnitude += one.magnitude / hands;
@@ -270,25 +122,26 @@ Errors measure(const StudyRequest& request) {
   Errors e;
   ForceSensorConfig clean;
   clean.noise_n = clean.drift_n_per_h = 0;
-  ForceSensorConfig moments;
-  moments.noise_n = kMomentNoise, moments.drift_n_per_h = 0;
   const PlantParameters truth = draw_parameters(request.seed);
   const DeviceModel model = calibrated_model(truth, request.seed);
   for (std::size_t i = 0; i < cases().size(); ++i) {
     const Case& c = cases()[i];
     e.map[i] = map_error(c);
-    ForceBench whole(truth, model, {}, moments, request.seed + 10 * i);
+    const HeldStylusConfig chain{.truth = truth, .model = model, .seed = request.seed + 10 * i};
+    HeldStylus whole(chain);
     e.chain[i] = measured_error(whole, c);
-    e.held[i] = held_error(c, request, moments);
+    e.held[i] = held_error(c, request);
     if (!request.sensor.empty()) {
-      ForceBench line(truth, model, {}, moments, request.seed + 10 * i, fixture(), request.sensor);
+      HeldStylusConfig through = chain;
+      through.line = request.sensor;
+      HeldStylus line(through);
       e.through[i] = measured_error(line, c);
       e.taken += line.taken(), e.left_out += line.left_out();
     }
     if (request.quick) continue;
-    ForceBench without_friction(ideal(), {}, clean, clean, request.seed);
+    HeldStylus without_friction({.truth = ideal(), .force = clean, .moment = clean, .seed = request.seed});
     e.quantised[i] = measured_error(without_friction, c);
-    ForceBench raw(truth, {}, {}, moments, request.seed + 10 * i);
+    HeldStylus raw({.truth = truth, .seed = chain.seed});
     e.uncalibrated[i] = measured_error(raw, c);
   }
   return e;

@@ -41,10 +41,11 @@ IdentifyRequest seeded_identification(std::uint64_t seed, bool quick) {
   return request;
 }
 
-Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request) {
+Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request,
+                                  const DeviceModel& model) {
   SimulatedDaqConfig config;
   config.plant = truth;
-  return identify(*make_backend(kSimulatedBackend, {.simulated = config}).daq, DeviceModel{}, request);
+  return identify(*make_backend(kSimulatedBackend, {.simulated = config}).daq, model, request);
 }
 
 }  // namespace trocar

@@ -20,7 +20,9 @@ IdentifyRequest quick_identification();
 /// The whole one or the quick one, its draws by the seed.
 IdentifyRequest seeded_identification(std::uint64_t seed, bool quick);
 
-/// From the nominal model; the truth stays behind the seam. @throws InputError, EnvironmentError.
-Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request);
+/// The truth stays behind the seam. @param model where the identifier starts; its transmissions count as true. @throws
+/// InputError, EnvironmentError.
+Identification identify_simulated(const PlantParameters& truth, const IdentifyRequest& request,
+                                  const DeviceModel& model = {});
 
 }  // namespace trocar

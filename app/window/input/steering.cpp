@@ -8,6 +8,7 @@
 #include "app/window/input/careful_press.h"
 #include "app/window/input/jaw_fingers.h"
 #include "app/window/input/stick_curve.h"
+#include "haptics/least_turn.h"
 
 namespace trocar {
 namespace {
@@ -73,7 +74,7 @@ struct Wish {
   double roll = 0;
 };
 
-Mat3 swing(const Vec3& from, const Vec3& to) { return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix(); }
+Mat3 swing(const Vec3& from, const Vec3& to) { return least_turn(from, to).toRotationMatrix(); }
 
 Vec3 toward(const Vec3& from, const Vec3& to, double step) {
   const Vec3 way = to - from;

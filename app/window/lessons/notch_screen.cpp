@@ -7,6 +7,7 @@
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/window/ui/button_row.h"
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 
 namespace trocar {
 namespace {
@@ -38,7 +39,7 @@ void add_walls(const Notch& n, NotchWall touched, std::vector<SceneObject>& out)
 /// A rod from p along `way`.
 SceneObject rod(const Vec3& p, const Vec3& way, double thick_m, const Vec3& colour) {
   SceneObject out = object(Shape::kCylinder, p + 0.5 * way, {thick_m, thick_m, way.norm()}, colour);
-  out.X_TO.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), way).toRotationMatrix();
+  out.X_TO.R = least_turn(Vec3::UnitZ(), way).toRotationMatrix();
   return out;
 }
 

@@ -181,8 +181,11 @@ TipGuide RunScreen::State::guide_at(const Scene& scene, const SceneView& view, c
   const StylusState& stylus = moment.record.stylus;
   const bool carries = moment.status.cue == Cue::kCarry || moment.status.cue == Cue::kPlace;
   if (carries) out.plumb_T = moment.status.demand.object.X_TO.p;
-  if (guides)
-    out.foot_T = stylus.contact ? stylus.contact_point_T : surroundings->below(out.plumb_T.value_or(out.tip_T));
+  if (guides) {
+    const Vec3 hangs_T = out.plumb_T.value_or(out.tip_T);
+    out.foot_T = touched_at(stylus, hangs_T);
+    if (!out.foot_T) out.foot_T = surroundings->below(hangs_T);
+  }
   if (view.hud.bars.empty()) return out;
   const ForceBar& bar = watched_now(scene.setup.exercise, moment.status) == WatchedForce::kGrip ? view.hud.bars.back()
                                                                                                 : view.hud.bars.front();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/picture/scene/scope_pose.h"
+#include "haptics/least_turn.h"
 
 namespace trocar {
 namespace {
@@ -43,7 +44,7 @@ void add_ghost(SceneView& view, const HandIntent& target) {
   if (!(distance > kGhostFrom)) return;
   view.objects.push_back(ghost(SceneObject::Shape::kRing, {kRing, kRing, kWire}, target.X_TI));
   if (distance < kThreadFrom) return;
-  const Mat3 along = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), way).toRotationMatrix();
+  const Mat3 along = least_turn(Vec3::UnitZ(), way).toRotationMatrix();
   view.objects.push_back(
       ghost(SceneObject::Shape::kCylinder, {kThread, kThread, distance}, {along, view.X_TI.p + 0.5 * way}));
 }

@@ -17,6 +17,7 @@ constexpr double kPenLine = 0.03;      // m of a pen behind its tip
 constexpr int kFootPoints = 24, kHeldPoints = 32, kCirclePoints = 32, kHalvings = 12;
 constexpr double kHeldRadius = 17, kBarWide = 116, kBarHigh = 14, kBarBeside = 46;  // px at 720 lines
 constexpr double kTouching_n = 0.01;
+constexpr double kAtTip_m = 0.015;  // farther away the shaft touches
 
 /// Last point on the way that is in the picture; the first one is.
 Vec3 last_seen(const ScopeOptics& optics, const Vec3& from_T, const Vec3& to_T) {
@@ -118,6 +119,11 @@ void paint_to_go(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
 }
 
 }  // namespace
+
+std::optional<Vec3> touched_at(const StylusState& stylus, const Vec3& hangs_T) {
+  if (!stylus.contact || (stylus.contact_point_T - hangs_T).norm() > kAtTip_m) return std::nullopt;
+  return stylus.contact_point_T;
+}
 
 Vec3 middle_of(const std::vector<Line>& lit_T) {
   Vec3 sum = Vec3::Zero();

@@ -28,6 +28,10 @@ struct TipGuide {
   std::string to_go = {};              ///< to the start ball, in words, below it
 };
 
+/// Where the tip, or what it carries, touches: nothing while only the shaft leans on something.
+/// @param hangs_T tip, or middle of what is carried
+std::optional<Vec3> touched_at(const StylusState& stylus, const Vec3& hangs_T);
+
 /// Outline of what the exercise asks for now: start ball, disc, pen, block or ring.
 std::vector<std::vector<Vec3>> lit_outline(const SessionView& view, const Camera& camera);
 

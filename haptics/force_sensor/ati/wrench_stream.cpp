@@ -35,12 +35,12 @@ void WrenchStream::stop() {
 
 void WrenchStream::count(std::uint64_t WrenchLink::*what, std::uint64_t by) {
   for (std::size_t i = 0; i < counters_.size(); ++i)
-    if (kCounters[i] == what) counters_[i].fetch_add(by, std::memory_order_relaxed);
+    if (kCounters[i] == what) counters_[i].fetch_add(by, std::memory_order_release);
 }
 
 WrenchLink WrenchStream::link() const {
   WrenchLink out;
-  for (std::size_t i = 0; i < counters_.size(); ++i) out.*kCounters[i] = counters_[i].load(std::memory_order_relaxed);
+  for (std::size_t i = 0; i < counters_.size(); ++i) out.*kCounters[i] = counters_[i].load(std::memory_order_acquire);
   return out;
 }
 
@@ -61,9 +61,9 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
   if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n, zero_moment_ = moment;
   record.moment_nm = moment - zero_moment_;
   record.force_n = force - zero_ - options_.fixture_n;
-  count(&WrenchLink::records);
-  if (!record.sound) count(&WrenchLink::unsound);
   newest_.write(record);
+  if (!record.sound) count(&WrenchLink::unsound);
+  count(&WrenchLink::records);  // last: who sees it counted finds it
 }
 
 std::pair<WrenchRecord, bool> WrenchStream::newest() {

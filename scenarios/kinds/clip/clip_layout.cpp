@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/clip/clip_rules.h"
 #include "scenarios/layout/board_random.h"
 #include "scenarios/layout/height_field.h"
@@ -18,7 +19,7 @@ constexpr int kClipDraws = 200;
 /// The instrument at a place without being rolled.
 Mat3 unrolled(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& place_T) {
   if (level.mapping != Mapping::kFulcrum) return R_TI_rest;
-  return Eigen::Quaterniond::FromTwoVectors(R_TI_rest.col(2), place_T - level.port_m).toRotationMatrix() * R_TI_rest;
+  return least_turn(R_TI_rest.col(2), place_T - level.port_m).toRotationMatrix() * R_TI_rest;
 }
 
 /// The least roll that lays the jaws' hinge along a direction, either way round.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/dissect/dissect_rules.h"
 #include "scenarios/layout/board_random.h"
 #include "scenarios/layout/height_field.h"
@@ -121,8 +122,7 @@ class DissectionPlan {
 /// The foot points along -y of I (tissue/thin/rod_hook.h).
 BedAxes bed_axes(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& centre_T) {
   Mat3 R = R_TI_rest;
-  if (level.mapping == Mapping::kFulcrum)
-    R = Eigen::Quaterniond::FromTwoVectors(R.col(2), centre_T - level.port_m).toRotationMatrix() * R;
+  if (level.mapping == Mapping::kFulcrum) R = least_turn(R.col(2), centre_T - level.port_m).toRotationMatrix() * R;
   const Eigen::Vector2d foot = -R.col(1).head<2>().normalized();
   return {{-foot.y(), foot.x()}, foot};
 }

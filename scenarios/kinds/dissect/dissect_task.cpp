@@ -25,9 +25,14 @@ void DissectTask::begin(EventLog& log) {
   log.add(event_type::kTargetLit, Severity::kInfo, asked_);
 }
 
-/// As the organ has it now.
+/// As the organ has it now. A vessel is asked for where it bleeds: the organ opens it at the nearest of its vertices,
+/// which may lie as far from the board's place as current seals.
 SurfacePlace DissectTask::place(const TissueFrame& frame, int target) const {
   const auto i = static_cast<std::size_t>(target);
+  if (!is_strand(target) && target - kStrands < frame.wound_count) {
+    const Vec3& normal = target < frame.place_count ? frame.place[i].normal_T : targets_[i].normal_T;
+    return {frame.wound[i - kStrands].place_T, normal};
+  }
   if (target < frame.place_count) return frame.place[i];
   return {targets_[i].centre_T, targets_[i].normal_T};
 }

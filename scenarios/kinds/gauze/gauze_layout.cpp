@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/gauze/cut_line.h"
 #include "scenarios/layout/board_random.h"
 #include "scenarios/layout/sheet_frame.h"
@@ -18,7 +19,7 @@ constexpr double kMostRoll = 2 * std::numbers::pi / 3;  // rad either way, well 
 
 Mat3 unrolled_at(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& place_T) {
   if (level.mapping != Mapping::kFulcrum) return R_TI_rest;
-  return Eigen::Quaterniond::FromTwoVectors(R_TI_rest.col(2), place_T - level.port_m).toRotationMatrix() * R_TI_rest;
+  return least_turn(R_TI_rest.col(2), place_T - level.port_m).toRotationMatrix() * R_TI_rest;
 }
 
 }  // namespace

@@ -22,8 +22,10 @@ constexpr double kLightest = 0.2;                     // of the force that is me
 constexpr double kQuickestSnipReach = 0.12;           // s
 constexpr double kSnipDeepest = 0.040;                // m on from the hover, felt or not: then it closes all the same
 constexpr double kSlowNear = 0.7;                     // of the approach speed, once something is felt
-constexpr double kFelt = 0.12;                        // N
-constexpr double kBladesRoll = 3;                     // rad/s of a turn, before speed_factor
+constexpr double kPressedIn = 0.001;  // m under the place, where the tips are seen to press on the gauze
+constexpr double kGivesWay = 0.006;   // m, seen, that it gives way: it is not pressed further
+constexpr double kFelt = 0.12;        // N
+constexpr double kBladesRoll = 3;     // rad/s of a turn, before speed_factor
 constexpr double kMostFollowed = 0.5, kMostLead = 0.4;  // rad at which the eyes lead; that fingers go ahead of a tool
 constexpr double kSnipTurn = 30 * std::numbers::pi / 180, kSnipTurnFloor = 0.15;  // of the aim error of turns
 
@@ -99,16 +101,21 @@ void SnipJob::look(const Percept& percept, double dt_s, HandIntent& intent, Hand
   if (off && in_step_s_ < kLookFor * skill_.max_corrections * skill_.speed_factor) return;
   const double wanted = (percept.band_low_n + percept.band_high_n) / 2 * skill_.force_bias;
   goal_n_ = wanted * std::max(kLightest, 1 + skill_.force_cv * random.normal());
+  lay_T_ = percept.target_T;
   enter(Step::kPress);
 }
 
-/// Straight down, more slowly once the gauze is felt, until it is pressed as is meant.
+/// Straight down, more slowly once the gauze is felt, until it is seen and felt to be pressed as is meant, or gives
+/// way.
 void SnipJob::press(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent) {
   const double speed = skill_.approach_speed_mps * (senses.touch_n() > kFelt ? kSlowNear : 1.0);
   intent.X_TI.p -= speed * dt_s * percept.target_normal_T;
   if (skill_.max_corrections > 0) follow(percept, dt_s, intent);
   const bool deep = in_step_s_ * skill_.approach_speed_mps > kSnipDeepest;
-  if (senses.force_n() >= goal_n_ || deep) enter(Step::kClose);
+  const bool at_gauze =
+      percept.target_normal_T.dot(way_over(percept, -kPressedIn)) >= 0;  // what is felt above is the arm
+  const bool gives_way = percept.target_normal_T.dot(lay_T_ - percept.tip_T) > kGivesWay;
+  if ((senses.force_n() >= goal_n_ && at_gauze) || gives_way || deep) enter(Step::kClose);
 }
 
 void SnipJob::close(const Percept&, double dt_s, HandIntent& intent) {

@@ -41,6 +41,7 @@ class SnipJob : public HandWork {
   WristPlan turn_;
   Step step_ = Step::kReach;
   double in_step_s_ = 0, goal_n_ = 0;
+  Vec3 lay_T_ = Vec3::Zero();  ///< where the place lay before it was pressed
 };
 
 }  // namespace trocar

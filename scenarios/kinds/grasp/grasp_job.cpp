@@ -39,11 +39,14 @@ constexpr double kNearlyDown = 0.004;  // m over the ring as it is seen: before,
 constexpr double kFeelLow = 0.75, kFeelHigh = 0.95;  // N, a squeeze that no foam minds
 constexpr double kFeelTime = 1.0, kFeelLook = 0.4;   // s of feeling; the last of it is what is judged by
 constexpr double kJudgement = 0.5;                   // of the force CV: error of the judged stiffness
-constexpr double kLostTime = 0.25;                   // s without felt grip before the block counts as lost
-constexpr double kTighter = 1.35;                    // of the window when the block is seen to slip
-constexpr double kHighest = 0.055;                   // m over the board: no higher when withdrawing
-constexpr double kSnagged = 1.5;                     // N on the fingers that tell that the open jaws hang on something
-constexpr double kPatience = 0.9;                    // s to wait for the next block before trying the same again
+constexpr double kSeenAway = 0.015;                  // m from the pads: it is not between them
+constexpr double kWound = 0.25, kGive = 0.3;  // rad about the shaft that the wrist stays behind: it is at its end
+constexpr double kLongestLead = 0.025;        // m that the hand leads an instrument that does not follow
+constexpr double kLostTime = 0.25;            // s without felt grip before the block counts as lost
+constexpr double kTighter = 1.35;             // of the window when the block is seen to slip
+constexpr double kHighest = 0.055;            // m over the board: no higher when withdrawing
+constexpr double kSnagged = 1.5;              // N on the fingers that tell that the open jaws hang on something
+constexpr double kPatience = 0.9;             // s to wait for the next block before trying the same again
 
 /// Can the pads take the object across this axis of it? It lies level, and open jaws reach round it.
 bool between_pads(const SeenObject& object, int axis) {
@@ -103,18 +106,28 @@ double GraspJob::roll_off(const Percept& percept) const {
   return turn_aside ? other : best;
 }
 
+/// Roll of the intent after which the seen instrument would have rolled; no further than the wrist goes.
+double GraspJob::turn_to(double roll, const Percept& percept, const HandIntent& intent) {
+  const Mat3 behind = intent.X_TI.R.transpose() * percept.R_TI;
+  const double twist = std::atan2(behind(1, 0) - behind(0, 1), behind(0, 0) + behind(1, 1));
+  return std::abs(twist) > kWound ? twist + std::clamp(roll, -kGive, kGive) : roll;
+}
+
 void GraspJob::straight(const Vec3& from_T, const Vec3& to_T, double seconds) {
   plan_ = ReachPlan(from_T, to_T, {0, Vec3::Zero(), 0, std::max(kQuickest, seconds)});
 }
 
-/// Plans a movement of the intent such that the seen tip would arrive at the goal.
+/// Plans a movement of the intent such that the seen tip would arrive at the goal. Where the instrument is held back,
+/// the intent leads it no further with each new plan.
 void GraspJob::reach(const Percept& percept, const Vec3& goal_T, double width_m, double least_s,
                      const HandIntent& intent, HandRandom& random) {
-  plan_ = aimed_reach(intent.X_TI.p, goal_T - percept.tip_T, width_m, least_s, skill_, random);
+  const Vec3 lead = intent.X_TI.p - percept.tip_T;
+  const Vec3 slack = lead * std::max(0.0, 1 - kLongestLead / std::max(kLongestLead, lead.norm()));
+  plan_ = aimed_reach(intent.X_TI.p, goal_T - percept.tip_T - slack, width_m, least_s, skill_, random);
 }
 
 void GraspJob::reach_block(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  turn_ = Eigen::AngleAxisd(roll_off(percept), Vec3::UnitZ());
+  turn_ = Eigen::AngleAxisd(turn_to(roll_off(percept), percept, intent), Vec3::UnitZ());
   const double turning = reach_time_s(std::abs(turn_.angle()), 2 * kGoodTurn, skill_.speed_factor);
   reach(percept, grip_point(percept) + way_out(percept), 2 * kGoodAim, std::max(kQuickest, turning), intent, random);
   R_from_ = intent.X_TI.R;
@@ -236,7 +249,10 @@ void GraspJob::take(const Percept& percept, const HandSenses& senses, double dt_
 void GraspJob::watch_grip(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
                           HandRandom& random) {
   squeeze(percept, senses, dt_s, intent, random);
-  lost_s_ = senses.grip_n() < kGripFelt / 2 ? lost_s_ + dt_s : 0;
+  // Pads that close on nothing feel each other: eyes tell that.
+  const bool away = (grip_point(percept) - percept.tip_T).norm() > kSeenAway;
+  const bool held = senses.grip_n() > kGripFelt / 2 && !away;
+  lost_s_ = held ? 0 : lost_s_ + dt_s;
   slip_s_ = percept.object.slipping ? slip_s_ + dt_s : 0;
   if (slip_s_ > skill_.reaction_s) {
     slip_s_ = 0;

@@ -58,6 +58,7 @@ class GraspJob : public HandWork {
   static double thickness(const Percept& percept);
   static Vec3 way_out(const Percept& percept);
   double roll_off(const Percept& percept) const;
+  static double turn_to(double roll, const Percept& percept, const HandIntent& intent);
 
   HandSkill skill_;
   ForceGrip grip_;

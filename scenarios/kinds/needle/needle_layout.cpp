@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/layout/board_random.h"
 #include "scenarios/layout/height_field.h"
 #include "scenarios/layout/target_ground.h"
@@ -21,7 +22,7 @@ Vec3 across(const Vec3& v, const Vec3& axis) { return (v - v.dot(axis) * axis).n
 
 /// The shaft from the port to a place, by the least turn.
 Mat3 swung_to(const Mat3& R_TI, const Vec3& port_T, const Vec3& place_T) {
-  return Eigen::Quaterniond::FromTwoVectors(R_TI.col(2), place_T - port_T).toRotationMatrix() * R_TI;
+  return least_turn(R_TI.col(2), place_T - port_T).toRotationMatrix() * R_TI;
 }
 
 /// The dots of a board whose slit runs so through a place; empty: one of them cannot lie there.

@@ -6,7 +6,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kRasterFinest = 0.0052, kRasterShare = 0.0048;  // m of pitch, and as much more times settle_share
+constexpr double kRasterFinest = 0.0035, kRasterShare = 0.0068;  // m of pitch, and as much more times settle_share
 constexpr double kFeelAimReference = 0.060, kFeelAimFloor = 0.15;
 constexpr double kClear = 0.008;        // m over the tissue between presses
 constexpr double kFeelSeenLate = 0.16;  // s: the eyes are that late
@@ -17,10 +17,11 @@ constexpr double kDeepest = 0.035;      // m of coming down without meeting any
 constexpr double kGoodGoal = 0.15;      // of the force aimed at: near enough to be judged
 constexpr double kLongestPress = 1.6, kLook = 0.25;  // s, before speed_factor; s of judging
 constexpr double kFeelJudgement = 0.25;              // of the force CV: error of the judged stiffness
-constexpr double kApart = 0.013;                     // m from what was marked, or felt to be nothing
-constexpr double kAbout = 0.010;                     // m round a place whose presses say where it is stiffest
-constexpr double kStiffer = 1.04;                    // over what is usual: worth a mark
-constexpr double kOnPlace = 0.002;                   // m off the place that needs no correction before a mark
+constexpr double kApart = 0.013;                     // m from what was marked
+constexpr double kLumpWidth = 0.007;                 // m from its middle at which a lump is felt by 1/e of the most
+constexpr double kLumpStep = 0.002;                  // m, of the places that are thought of
+constexpr double kFeltEnough = 0.3;  // of one press right over it, below which nothing is known of a place
+constexpr double kOnPlace = 0.002;   // m off the place that needs no correction before a mark
 constexpr double kFeelOpenJaw = 0.018, kFeelTightestJaw = -0.010;  // m
 constexpr double kFeelJawSpeed = 0.030, kFeelClosing = 0.012;      // m/s, free and until the pad is felt
 constexpr double kPinchLow = 0.8, kPinchHigh = 1.6;                // N, well above what marks
@@ -28,6 +29,35 @@ constexpr double kPinchFelt = 0.12;                                // N
 constexpr double kLongestPinch = 6;                                // s
 constexpr double kFeelSideGain = 4;                                // 1/s
 constexpr int kBesides = 4;
+constexpr std::size_t kTries = 3;  // places that are felt more closely before any is marked
+
+constexpr double kLeastDepth = 0.001;  // m
+
+/// Terms of a curved surface over the region.
+Eigen::Matrix<double, 6, 1> curved(const Vec3& at_T, const Vec3& middle_T, double half_m) {
+  const double x = (at_T - middle_T).x() / half_m, y = (at_T - middle_T).y() / half_m;
+  return Eigen::Matrix<double, 6, 1>(std::array{1.0, x, y, x * x, x * y, y * y}.data());
+}
+
+/// One number a press.
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, PalpateJob::kMostFelt, 1>;
+
+/// What a plane and lumps explain of what all presses felt: an orthonormal basis of them.
+class Explained {
+ public:
+  Column without(Column column) const {
+    for (std::size_t i = 0; i < count_; ++i) column -= known_[i].dot(column) * known_[i];
+    return column;
+  }
+  void add(const Column& column) {
+    const Column rest = without(column);
+    if (rest.norm() > 1e-6) known_[count_++] = rest.normalized();
+  }
+
+ private:
+  std::array<Column, 3 + PalpateJob::kMostLumps> known_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -69,68 +99,89 @@ void PalpateJob::go_to(const Vec3& place_T, const Percept& percept, const HandIn
   enter(Step::kReach);
 }
 
-/// The plane through what has been felt: an organ is firmer towards one side than towards the other.
-double PalpateJob::usual_stiffness(const Vec3& place_T) const {
-  Mat3 sums = 1e-9 * Mat3::Identity();
-  Vec3 felt = Vec3::Zero();
+/// Single touches err by a millimetre, a tenth of the depth: the hand knows the surface from all of them.
+PalpateJob::Curved PalpateJob::touched_surface(const Vec3& middle_T, double half_m) const {
+  Eigen::Matrix<double, 6, 6> sums = 1e-9 * Eigen::Matrix<double, 6, 6>::Identity();
+  Curved heights = Curved::Zero();
   for (std::size_t i = 0; i < felt_count_; ++i) {
-    const Vec3 at(1, 1e2 * felt_[i].place_T.x(), 1e2 * felt_[i].place_T.y());
+    const Curved at = curved(felt_[i].place_T, middle_T, half_m);
     sums += at * at.transpose();
-    felt += felt_[i].stiffness * at;
+    heights += felt_[i].touched_z_m * at;
   }
-  return Vec3(1, 1e2 * place_T.x(), 1e2 * place_T.y()).dot(Vec3(sums.ldlt().solve(felt)));
+  return sums.ldlt().solve(heights);
 }
 
-Vec3 PalpateJob::middle_of(const Vec3& place_T) const {
-  Vec3 sum = Vec3::Zero();
-  double weight = 0;
-  for (std::size_t i = 0; i < felt_count_; ++i) {
-    if ((felt_[i].place_T - place_T).head<2>().norm() > kAbout) continue;
-    const double more = std::max(0.0, felt_[i].stiffness - usual_stiffness(felt_[i].place_T));
-    sum += more * more * more * felt_[i].place_T;
-    weight += more * more * more;
-  }
-  return weight > 0 ? Vec3(sum / weight) : place_T;
-}
+/// Greedily, as in orthogonal matching pursuit: what explains most of what the plane and the lumps before leave over.
+Vec3 PalpateJob::next_lump(const Places& known, const Percept& percept) const {
+  const Vec3& middle_T = percept.object.X_TO.p;
+  const double half_m = percept.object.size_m.x() / 2;
+  const auto over_presses = [&](const auto& value) {
+    Column column(static_cast<Eigen::Index>(felt_count_));
+    for (std::size_t i = 0; i < felt_count_; ++i) column[static_cast<Eigen::Index>(i)] = value(felt_[i]);
+    return column;
+  };
+  const auto lump_at = [&](const Vec3& at) {
+    return over_presses([&](const Felt& felt) {
+      return std::exp(-(felt.place_T - at).head<2>().squaredNorm() / (kLumpWidth * kLumpWidth));
+    });
+  };
+  const auto apart_from = [](const Places& others, const Vec3& at) {
+    return std::none_of(others.at.begin(), others.at.begin() + static_cast<std::ptrdiff_t>(others.count),
+                        [&](const Vec3& other) { return (other - at).head<2>().norm() < kApart; });
+  };
+  Explained explained;
+  explained.add(over_presses([](const Felt&) { return 1.0; }));
+  explained.add(over_presses([&](const Felt& felt) { return (felt.place_T - middle_T).x() / half_m; }));
+  explained.add(over_presses([&](const Felt& felt) { return (felt.place_T - middle_T).y() / half_m; }));
+  const Curved surface = touched_surface(middle_T, half_m);
+  const Column felt = over_presses([&](const Felt& one) {
+    return std::log(one.force_n /
+                    std::max(kLeastDepth, surface.dot(curved(one.place_T, middle_T, half_m)) - one.place_T.z()));
+  });
 
-/// The stiffest place that is not left; when everything is left, the stiffest of all is what remains.
-void PalpateJob::choose(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  const Felt* best = nullptr;
-  double most = 0;
-  for (std::size_t i = 0; i < felt_count_; ++i) {
-    const auto near = [&](const Vec3& place) { return (felt_[i].place_T - place).head<2>().norm() < kApart; };
-    const bool left = std::any_of(left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(left_count_), near);
-    const double more = felt_[i].stiffness / usual_stiffness(felt_[i].place_T);
-    if (left || more <= most) continue;
-    best = &felt_[i];
-    most = more;
+  Places lumps;
+  for (;;) {
+    const Column left = explained.without(felt);
+    Vec3 best = middle_T;
+    double most = 0;
+    const auto think_of = [&](const Vec3& at) {
+      const Column lump = explained.without(lump_at(at));
+      if (lump.norm() < kFeltEnough || lump.dot(left) <= most * lump.norm() || !apart_from(lumps, at)) return;
+      best = at;
+      most = lump.dot(left) / lump.norm();
+    };
+    for (double x = -half_m; x <= half_m; x += kLumpStep)
+      for (double y = -half_m; y <= half_m; y += kLumpStep) think_of(middle_T + Vec3(x, y, 0));
+    for (double step = kLumpStep / 2; step > kLumpStep / 8; step /= 2) {
+      const Vec3 coarse = best;
+      for (const double x : {-step, 0.0, step})
+        for (const double y : {-step, 0.0, step}) think_of(coarse + Vec3(x, y, 0));
+    }
+    if (apart_from(known, best) || lumps.count + 1 == kMostLumps) return best;
+    lumps.add(best);
+    explained.add(lump_at(best));
   }
-  if (best == nullptr) {
-    left_count_ = 0;
-    raster_ = 1;
-    aim_ = Aim::kRaster;
-    return go_to(raster_place(percept, 0), percept, intent, random);
-  }
-  chosen_T_ = best->place_T;
-  beside_ = 0;
-  aim_ = skill_.max_corrections > 1 ? Aim::kBeside : Aim::kMark;
-  next(percept, intent, random);
 }
 
 /// From what has just been felt to what is felt next.
 void PalpateJob::next(const Percept& percept, const HandIntent& intent, HandRandom& random) {
   corrections_ = 0;
-  if (aim_ == Aim::kRaster) {
-    if (raster_ < side_ * side_) return go_to(raster_place(percept, raster_++), percept, intent, random);
-    return choose(percept, intent, random);
+  if (aim_ == Aim::kRaster && raster_ < side_ * side_)
+    return go_to(raster_place(percept, raster_++), percept, intent, random);
+  const bool all_tried = skill_.max_corrections < 2 || (tried_.count == kTries && beside_ == kBesides);
+  if (all_tried) {
+    aim_ = Aim::kMark;
+    chosen_T_ = next_lump(marked_, percept);
+    return go_to(chosen_T_, percept, intent, random);
   }
-  if (aim_ == Aim::kBeside && beside_ < kBesides) {
-    const Vec3 side = beside_ % 2 == 0 ? Vec3::UnitX() : Vec3::UnitY();
-    return go_to(chosen_T_ + (beside_++ < 2 ? 0.5 : -0.5) * pitch_m_ * side, percept, intent, random);
+  if (aim_ == Aim::kRaster || beside_ == kBesides) {
+    aim_ = Aim::kBeside;
+    beside_ = 0;
+    chosen_T_ = next_lump(tried_, percept);
+    tried_.add(chosen_T_);
   }
-  if (aim_ == Aim::kBeside) chosen_T_ = middle_of(chosen_T_);
-  aim_ = Aim::kMark;
-  go_to(chosen_T_, percept, intent, random);
+  const Vec3 side = beside_ % 2 == 0 ? Vec3::UnitX() : Vec3::UnitY();
+  go_to(chosen_T_ + (beside_++ < 2 ? 0.5 : -0.5) * pitch_m_ * side, percept, intent, random);
 }
 
 void PalpateJob::begin(const Percept& percept, const HandIntent& intent, HandRandom& random) {
@@ -144,10 +195,8 @@ void PalpateJob::begin(const Percept& percept, const HandIntent& intent, HandRan
 }
 
 void PalpateJob::judge(HandRandom& random) {
-  const double depth = std::max(0.001, depth_sum_ / judged_);
-  const double stiffness = force_sum_ / judged_ / depth * random.log_normal(kFeelJudgement * skill_.force_cv);
-  if (felt_count_ < kMostFelt)
-    felt_[felt_count_++] = {Vec3(place_sum_x_ / judged_, place_sum_y_ / judged_, touched_T_.z()), stiffness};
+  const double force = force_sum_ / judged_ * random.log_normal(kFeelJudgement * skill_.force_cv);
+  if (felt_count_ < kMostFelt) felt_[felt_count_++] = {place_sum_ / judged_, touched_T_.z(), force};
 }
 
 void PalpateJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
@@ -179,7 +228,8 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
         const double middle = percept.object.X_TO.p.z();
         surface_z_ = std::clamp(touched_T_.z(), middle - kMostRelief, middle + kMostRelief);
         press_.begin(percept.band_low_n, percept.band_high_n, random);
-        force_sum_ = depth_sum_ = place_sum_x_ = place_sum_y_ = judged_s_ = 0;
+        force_sum_ = judged_s_ = 0;
+        place_sum_.setZero();
         judged_ = 0;
         return enter(Step::kPress);
       }
@@ -190,20 +240,13 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       if (judged_ == 0 && !there && in_step_s_ < kLongestPress * k) return;
       if (judged_ == 0 && in_step_s_ < 0.4) return;
       force_sum_ += senses.force_n();
-      depth_sum_ += touched_T_.z() - percept.tip_T.z();
-      place_sum_x_ += percept.tip_T.x();
-      place_sum_y_ += percept.tip_T.y();
+      place_sum_ += percept.tip_T;
       ++judged_;
       judged_s_ += dt_s;
       if (judged_s_ < kLook) return;
       judge(random);
       if (aim_ != Aim::kMark) return next(percept, intent, random);
-      // Where it turns out to be as soft as elsewhere, a careful hand goes on searching.
-      const bool nothing =
-          felt_[felt_count_ - 1].stiffness < kStiffer * usual_stiffness(felt_[felt_count_ - 1].place_T);
-      if (left_count_ < kMostPlaces) left_[left_count_++] = chosen_T_;
-      if (nothing && skill_.max_corrections > 1 && left_count_ + 4 < kMostPlaces)
-        return choose(percept, intent, random);
+      marked_.add(chosen_T_);
       pinch_.begin(kPinchLow, kPinchHigh, random);
       marks_share_ = percept.shown_share;
       return enter(Step::kPinch);
@@ -217,7 +260,7 @@ void PalpateJob::update(const Percept& percept, const HandSenses& senses, double
       return;
     }
     case Step::kLetGo:
-      if (in_step_s_ > skill_.reaction_s && percept.jaw_opening_m > 0.013) choose(percept, intent, random);
+      if (in_step_s_ > skill_.reaction_s && percept.jaw_opening_m > 0.013) next(percept, intent, random);
   }
 }
 

@@ -1,7 +1,8 @@
 // How a simulated person feels an organ for what is hidden in it: presses it at the points of a raster, one after the
-// other, with about the same force; judges at each how stiff it is, the felt force over the seen depth; goes back to
-// the stiffest places, presses beside them, and marks where it is stiffest by a long pinch, until the exercise has
-// enough.
+// other, with about the same force; judges at each how stiff it is, the felt force over the depth under the surface
+// that all touches tell; puts together what all presses say, for single ones err by as much as a nodule changes them;
+// presses beside the likeliest places, thinks again after each, and marks the middles of the likeliest by a long pinch,
+// until the exercise has enough.
 //
 // A finer raster is that of a hand that is content with little error (HandSkill::settle_share); who corrects more feels
 // more often beside a place before marking it. Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's,
@@ -19,6 +20,8 @@ namespace trocar {
 
 class PalpateJob : public HandWork {
  public:
+  static constexpr std::size_t kMostFelt = 160, kMostLumps = 8;
+
   explicit PalpateJob(const HandSkill& skill);
 
   void begin(const Percept& percept, const HandIntent& intent, HandRandom& random) override;
@@ -32,20 +35,27 @@ class PalpateJob : public HandWork {
 
   /// A place that was pressed.
   struct Felt {
-    Vec3 place_T = Vec3::Zero();
-    double stiffness = 0;  ///< N/m, as judged
+    Vec3 place_T = Vec3::Zero();  ///< of the tip while it presses
+    double touched_z_m = 0;
+    double force_n = 0;  ///< as judged
   };
-  static constexpr std::size_t kMostFelt = 160, kMostPlaces = 16;
-
+  struct Places {
+    std::array<Vec3, kMostLumps> at{};
+    std::size_t count = 0;
+    void add(const Vec3& place_T) {
+      if (count < kMostLumps) at[count++] = place_T;
+    }
+  };
   void enter(Step step);
   void go_to(const Vec3& place_T, const Percept& percept, const HandIntent& intent, HandRandom& random);
   void next(const Percept& percept, const HandIntent& intent, HandRandom& random);
   Vec3 raster_place(const Percept& percept, int index) const;
-  void choose(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void judge(HandRandom& random);
-  /// Where it is stiffest about a place, by all that was felt near it.
-  Vec3 middle_of(const Vec3& place_T) const;
-  double usual_stiffness(const Vec3& place_T) const;
+  /// Middle of the lump that explains most of what was felt, beside those that are known: over a plane, for an organ is
+  /// firmer towards one side than towards the other, lie lumps of a known width.
+  Vec3 next_lump(const Places& known, const Percept& percept) const;
+  using Curved = Eigen::Matrix<double, 6, 1>;  ///< 1, x, y, x^2, xy, y^2, and factors of them
+  Curved touched_surface(const Vec3& middle_T, double half_m) const;
 
   HandSkill skill_;
   ForceGrip press_, pinch_;
@@ -57,12 +67,12 @@ class PalpateJob : public HandWork {
   Vec3 goal_T_ = Vec3::Zero(), chosen_T_ = Vec3::Zero(), touched_T_ = Vec3::Zero();
   double surface_z_ = 0;
   bool begun_ = false;
-  double in_step_s_ = 0, judged_s_ = 0, force_sum_ = 0, depth_sum_ = 0, place_sum_x_ = 0, place_sum_y_ = 0;
+  double in_step_s_ = 0, judged_s_ = 0, force_sum_ = 0;
+  Vec3 place_sum_ = Vec3::Zero();
   int judged_ = 0;
   std::array<Felt, kMostFelt> felt_;
   std::size_t felt_count_ = 0;
-  std::array<Vec3, kMostPlaces> left_{};  ///< places that are not to be gone back to: marked, or felt to be nothing
-  std::size_t left_count_ = 0;
+  Places tried_, marked_;
   double marks_share_ = 0;  ///< as seen when the pinch began
 };
 

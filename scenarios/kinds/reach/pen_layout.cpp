@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/layout/board_random.h"
 
 namespace trocar {
@@ -29,7 +30,7 @@ Mat3 pen_rotation(const PenRules& pens, const ExerciseLevel& level, const Mat3& 
   const Mat3 rolled = Eigen::AngleAxisd(roll, Vec3::UnitZ()).toRotationMatrix();
   if (level.mapping == Mapping::kFulcrum) {
     const Vec3 axis = (tip_T - level.port_m).normalized();
-    return Eigen::Quaterniond::FromTwoVectors(R_TI_rest.col(2), axis).toRotationMatrix() * R_TI_rest * rolled;
+    return least_turn(R_TI_rest.col(2), axis).toRotationMatrix() * R_TI_rest * rolled;
   }
   const Vec3 sideways(std::cos(towards), std::sin(towards), 0);
   return R_TI_rest * Eigen::AngleAxisd(tilt, sideways).toRotationMatrix() * rolled;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/kinds/wire/wire_rules.h"
 #include "scenarios/layout/board_random.h"
 
@@ -96,9 +97,7 @@ Vec3 place_on(const ExerciseLevel& level, const Eigen::Vector2d& point) {
 /// The least turn from rest that brings shaft and ring to where the wire is: through a port onto the line to it first.
 Mat3 gate_turn(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& normal_I, const Vec3& centre_T,
                const Vec3& tangent_T) {
-  const auto least = [](const Vec3& from, const Vec3& to) {
-    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
-  };
+  const auto least = [](const Vec3& from, const Vec3& to) { return least_turn(from, to).toRotationMatrix(); };
   if (level.mapping != Mapping::kFulcrum) return least(R_TI_rest * normal_I, tangent_T) * R_TI_rest;
   const Vec3 u = (centre_T - level.port_m).normalized();
   const Mat3 R = least(R_TI_rest.col(2), u) * R_TI_rest;

@@ -9,9 +9,11 @@
 #include <set>
 #include <sstream>
 
+#include "app/organs/organ_import.h"
 #include "haptics/input_error.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/organ/organ.h"
+#include "tissue/organ/organ_set.h"
 #include "tissue/organ/surface_import.h"
 
 namespace trocar::organ_export_test {
@@ -129,6 +131,24 @@ std::map<std::string, double> volumes_of(const ImportedTetrahedra& mesh) {
     volumes[name] += (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6 * 1e6;
   }
   return volumes;
+}
+
+TEST(OrganExport, ASceneComesBackFromAFolderWithoutACrossing) {
+  const test::TemporaryFolder folder;
+  const Organ scene = load_organ(find_organ("phantom-abdomen", kAssets));
+  for (const char* format : {"ply", "stl"}) {
+    const fs::path files = folder / format;
+    exported("phantom-abdomen", files, format);
+    OrganImportOptions options;
+    options.input = files.string();
+    options.output = (folder / (std::string("back-") + format)).string();
+    std::ostringstream out, err;
+    EXPECT_EQ(organ_import(options, out, err), 0) << err.str();
+    const Organ back = load_organ(options.output + std::string(kOrganSetSuffix));
+    EXPECT_EQ(back.adjacent.size(), scene.adjacent.size());
+    EXPECT_EQ(back.surface.triangles.size(), scene.surface.triangles.size()) << format;
+    EXPECT_NEAR(back.surface.volume_m3(), scene.surface.volume_m3(), 1e-9);
+  }
 }
 
 TEST(OrganExport, TetrahedraOfASceneComeBackWithNodesRegionsAndVolumes) {

@@ -171,6 +171,17 @@ TEST(OrganNaming, SegmentsWithoutNumbersNameNothing) {
   EXPECT_CONTAINS(trial.refusal(), "labels 1, 5 have no name in the file");
 }
 
+TEST(OrganNaming, ALoneSegmentWithoutItsNumberNamesNothing) {
+  Trial trial("seg.nrrd");
+  std::string text = seg_nrrd(false);
+  const std::string line = "Segment0_LabelValue:=5\n";
+  text.erase(text.find(line), line.size());
+  text.erase(text.find("Segment1_Name"), text.find("\n\n") + 1 - text.find("Segment1_Name"));
+  trial.folder.write("seg.nrrd", text);
+  trial.options.all = true;
+  EXPECT_CONTAINS(trial.refusal(), "labels 1, 5 have no name in the file");
+}
+
 TEST(OrganNaming, MaterialsAreAskedForAndMustExist) {
   Trial trial("case7.nii.gz");
   trial.folder.write("case7.nii.gz", nifti(halves(5, 5)));
@@ -251,6 +262,33 @@ TEST(OrganFileSets, MasksOfAnotherGridOrOfNothingAreRefused) {
   EXPECT_CONTAINS(trial.refusal(), "b.nii.gz");
   trial.folder.write("a.nii.gz", nifti(halves(0, 0))), trial.folder.write("b.nii.gz", nifti(halves(0, 0)));
   EXPECT_CONTAINS(trial.refusal(), "holds no mask that marks a voxel");
+}
+
+TEST(OrganFileSets, SharesOfAnOrganAreNoImageAmongMasks) {
+  Trial trial("s");
+  std::map<std::string, std::string> files;
+  write_masks(trial.folder.path(), files);
+  const LabelVolume ball = halves(1, 1);
+  test::NiftiFixture soft(ball.size, ball.index_to_ras_mm);
+  for (std::size_t n = 0; n < soft.voxels.size(); ++n)
+    soft.voxels[n] = static_cast<std::uint8_t>(ball.labels[n] != 0 ? n % 10 : 0);
+  soft.put(112, 0.1F);  // scl_slope: 0 to 0.9
+  trial.folder.write("s/soft.nii", soft.bytes());
+  EXPECT_CONTAINS(trial.refusal(), "soft.nii");
+  soft.put(112, 40.5F);  // values of an image
+  trial.folder.write("s/soft.nii", soft.bytes());
+  EXPECT_CONTAINS(trial.imported()["organs"][0]["repairs"].dump(),
+                  "soft.nii is the image that the masks were drawn on");
+}
+
+TEST(OrganFileSets, AnOrganThatIsThereTwiceIsNoSoundScene) {
+  Trial trial("s");
+  std::map<std::string, std::string> files;
+  write_masks(trial.folder.path(), files);
+  trial.folder.write("s/hepar.nii.gz", files["s/liver.nii.gz"]);
+  std::ostringstream out, err;
+  EXPECT_EQ(organ_import(trial.options, out, err), 2) << err.str();
+  EXPECT_CONTAINS(Json::parse(out.str())["crossings"].dump(), R"("a":"hepar","b":"liver")");
 }
 
 TEST(OrganFileSets, SeveralSurfacesAreOneScene) {

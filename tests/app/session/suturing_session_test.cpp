@@ -10,6 +10,7 @@
 #include "app/session/playback/recorded_run.h"
 #include "app/session/session.h"
 #include "haptics/device/backends/make_backend.h"
+#include "haptics/least_turn.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/hands/waypoint_hand.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -44,7 +45,7 @@ struct Stitch {
     const Vec3 normal = organ.vertex_normals()[static_cast<std::size_t>(nearest - organ.vertices.begin())];
     along = (*nearest - fulcrum.port_T).normalized();
     const Vec3 swing_from = fulcrum.R_TI_reference.col(2);
-    R0 = Eigen::Quaterniond::FromTwoVectors(swing_from, along).toRotationMatrix() * fulcrum.R_TI_reference;
+    R0 = least_turn(swing_from, along).toRotationMatrix() * fulcrum.R_TI_reference;
     up = (normal - normal.dot(along) * along).normalized();
     side = up.cross(-along);
     middle = *nearest + kOver * up;

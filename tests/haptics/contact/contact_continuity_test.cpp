@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "haptics/contact/contact_renderer.h"
+#include "haptics/least_turn.h"
 #include "tests/haptics/contact/surfaces.h"
 
 namespace trocar::contact_continuity_test {
@@ -196,7 +197,7 @@ TEST_F(ThinSheet, IsNeverPassedFromARandomSide) {
     Vec3 way = random.direction();
     if (std::abs(way.z()) < 0.5) continue;
     const double side = way.z() < 0 ? 1 : -1;  // comes from above: side +1
-    const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), way).toRotationMatrix();
+    const Mat3 R = least_turn(Vec3::UnitZ(), way).toRotationMatrix();
     const ToolShape shape{.jaw_length_m = trial % 2 == 0 ? 0.020 : 0.0};
     ContactRenderer renderer(ContactLaw::kProxy, shape);
     const double opening = trial % 4 == 0 ? 0.015 : 0;

@@ -76,6 +76,38 @@ TEST_F(Contact, TangentialJitterDoesNotTouchTheForce) {
   }
 }
 
+/// Two planes that lean from each other by this much: the tip stands between them, and they face each other nearly.
+void groove(ContactPatch& patch, double half_rad) {
+  const Vec3 right(std::sin(half_rad), 0, std::cos(half_rad)), left(-std::sin(half_rad), 0, std::cos(half_rad));
+  test::add_sheet(patch, {0, 0.02, 0}, 0.06 * right, {0, -0.04, 0}, 3);
+  test::add_sheet(patch, {0, 0.02, 0}, {0, -0.04, 0}, 0.06 * left, 3);
+}
+
+TEST_F(Contact, AGrooveHoldsWhatIsPressedIntoIt) {
+  constexpr double kHalf = 0.15, kDepth = 0.002;
+  groove(*patch, kHalf);
+  const double rest = kRadius / std::sin(kHalf);
+  settle(tip_down({0, 0, rest}));
+  const ContactResult r = settle(tip_down({0, 0, rest - kDepth}));
+  ASSERT_EQ(renderer.contacts().count, 2);
+  EXPECT_LT((r.F_I_T.force - Vec3(0, 0, kDepth * stiffness())).norm(), kForceTolerance);
+}
+
+TEST_F(Contact, PlanesThatFaceEachOtherDoNotPressByAThousandTimesWhatTheyHold) {
+  constexpr double kHalf = 0.05, kDepth = 0.002;
+  groove(*patch, kHalf);
+  const double rest = kRadius / std::sin(kHalf);
+  settle(tip_down({0, 0, rest}));
+  // Closing planes, too: damping acts on what each contact carries.
+  const ContactResult r = feel(tip_down({0, 0, rest - kDepth}), {0, 0, -0.2});
+  ASSERT_EQ(renderer.contacts().count, 2);
+  double all = 0;
+  for (int i = 0; i < 2; ++i) all += renderer.contacts().at[i].force_T.norm();
+  EXPECT_LT(all, 10 * kDepth * stiffness() * r.damping_factor + kForceTolerance);
+  EXPECT_LT(r.F_I_T.force.norm(), kDepth * stiffness() * r.damping_factor);
+  EXPECT_GT(r.F_I_T.force.z(), 0) << "still felt";
+}
+
 TEST_F(Contact, ShaftOnARidgeGivesForceTimesLever) {
   // A ridge along y at x = 0.10, its edge at z = 0.
   test::add_sheet(*patch, {0.10, -0.02, 0}, {0, 0.04, 0}, {-0.01, 0, -0.01}, 3);

@@ -5,6 +5,7 @@
 #include <fcl/fcl.h>
 
 #include "haptics/contact/segment_triangle.h"
+#include "haptics/least_turn.h"
 #include "tests/haptics/contact/surfaces.h"
 #include "tests/haptics/haptics_fixtures.h"
 
@@ -27,7 +28,7 @@ std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> fcl_mesh(const TriangleSurface& sur
 double fcl_distance(const std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>>& mesh, const Vec3& a, const Vec3& b, double r) {
   const auto capsule = std::make_shared<fcl::Capsuled>(r, (b - a).norm());  // length without the caps
   fcl::Transform3d X = fcl::Transform3d::Identity();
-  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a).toRotationMatrix();
+  X.linear() = least_turn(Vec3::UnitZ(), b - a).toRotationMatrix();
   X.translation() = (a + b) / 2;
   const fcl::CollisionObjectd surface(mesh), tool(capsule, X);
   const fcl::DistanceRequestd request(false, false, 0, 0, 1e-9, fcl::GST_LIBCCD);

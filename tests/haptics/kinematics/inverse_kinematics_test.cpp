@@ -3,6 +3,7 @@
 
 #include "haptics/kinematics/hybrid_arm.h"
 #include "haptics/kinematics/inverse_kinematics.h"
+#include "haptics/least_turn.h"
 #include "tests/haptics/haptics_fixtures.h"
 
 namespace trocar::inverse_kinematics_test {
@@ -145,7 +146,7 @@ TEST(InverseKinematics, FullyStretchedIsStillReachable) {
 
 TEST(InverseKinematics, RollAxisThroughTheCentreHasNoAnswer) {
   Pose X = home_pose();
-  X.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), X.p).toRotationMatrix();
+  X.R = least_turn(Vec3::UnitZ(), X.p).toRotationMatrix();
   const InverseSolutions all = inverse_kinematics(X);
   EXPECT_EQ(all.count, 0);
   EXPECT_EQ(all.missed_by_m, 0) << "it is in reach, only the plane is undefined";

@@ -1,6 +1,7 @@
 // The instrument through a port: velocity map against finite differences, wrench map its transpose, inversion, mirror.
 #include <gtest/gtest.h>
 
+#include "haptics/least_turn.h"
 #include "haptics/mapping/instrument_map.h"
 #include "tests/haptics/haptics_fixtures.h"
 
@@ -132,7 +133,7 @@ TEST(Fulcrum, AClosedWayOfTheHandBringsTheInstrumentBackWithoutATwist) {
     const double a = 2 * std::numbers::pi * k / kSteps;
     const Pose X{Mat3::Identity(), Vec3(0.08 * std::cos(a), 0.08 * std::sin(a), 0.27)};
     const Vec3 u = f.instrument_pose(X).R.col(2);
-    carried = Eigen::Quaterniond::FromTwoVectors(carried.col(2), u).toRotationMatrix() * carried;
+    carried = least_turn(carried.col(2), u).toRotationMatrix() * carried;
   }
   turned = test::turn_between(start.R, carried);
   const double half_angle = std::atan2(0.08, 0.15), solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/least_turn.h"
 #include "tests/haptics/haptics_fixtures.h"
 #include "tests/haptics/loop_rig.h"
 
@@ -76,7 +77,7 @@ TEST(Alignment, IsAtRestWhereTheStylusFollowsTheShaft) {
   const InstrumentMap map = port_map();
   const Vec3 handle_T(0.05, 0.02, 0.26);
   Pose X_TS{Mat3::Identity(), handle_T};
-  X_TS.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), map.fulcrum->followed_axis(handle_T)).toRotationMatrix();
+  X_TS.R = least_turn(Vec3::UnitZ(), map.fulcrum->followed_axis(handle_T)).toRotationMatrix();
   const Pose X{map.X_TW.R.transpose() * X_TS.R, map.X_TW.R.transpose() * (handle_T - map.X_TW.p) / map.motion_scale};
   EXPECT_NEAR(alignment_energy_j(map, X, 1), 0, 1e-15);
   EXPECT_LT(alignment_wrench(map, X, 1).moment.norm(), 1e-8);

@@ -105,7 +105,7 @@ TEST(SheetReader, ReadsThatOfTheFlapAndNamesItsMistakes) {
     return test::refusal(test::edited(text, from, to));
   };
   EXPECT_NE(said("across_mm = 30", "across_mm = 0").find("'across_mm'"), std::string::npos);
-  EXPECT_NE(said("edge_mm = 3.5", "edge_mm = 1").find("more than 800 triangles"), std::string::npos);
+  EXPECT_NE(said("edge_mm = 3.5", "edge_mm = 1").find("more than 1200 triangles"), std::string::npos);
   EXPECT_NE(said("hinge_to_mm = [-20, 15]", "hinge_to_mm = [20, 16]").find("shorter than 5 mm"), std::string::npos);
   EXPECT_NE(said("thickness_mm = 2", "thickness_mm = 2\nthick_mm = 2").find("unknown key 'thick_mm'"),
             std::string::npos);

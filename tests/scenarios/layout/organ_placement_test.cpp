@@ -8,6 +8,7 @@
 
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
+#include "haptics/least_turn.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/touch/disc_layout.h"
 #include "tests/scenarios/support/relief.h"
@@ -25,7 +26,7 @@ Instrument instrument() {
   Instrument made;
   const Vec3 from_T = Vec3(0.45, -0.45, 0.77).normalized();
   const Mat3 home = home_pose().R;
-  made.map.X_SI.R = home.transpose() * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -from_T).toRotationMatrix();
+  made.map.X_SI.R = home.transpose() * least_turn(Vec3::UnitZ(), -from_T).toRotationMatrix();
   return made;
 }
 

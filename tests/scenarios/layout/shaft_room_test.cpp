@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "haptics/kinematics/device_geometry.h"
+#include "haptics/least_turn.h"
 #include "tests/tissue/support/shapes.h"
 
 namespace trocar::shaft_room_test {
@@ -15,9 +16,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Instrument whose shaft comes from `from_T`, seen from the tip.
-Mat3 pointing_from(const Vec3& from_T) {
-  return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -from_T).toRotationMatrix();
-}
+Mat3 pointing_from(const Vec3& from_T) { return least_turn(Vec3::UnitZ(), -from_T).toRotationMatrix(); }
 
 TEST(ShaftRoom, BesideABallTheGapFollowsTheLawOfCosines) {
   constexpr double kBall = 0.05;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "haptics/least_turn.h"
 #include "scenarios/director/cue_percept.h"
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
@@ -68,7 +69,7 @@ struct World {
     state.X_TI.R = intent.X_TI.R;
     if (level.mapping == Mapping::kFulcrum) {  // the shaft passes the port, whatever the wrist would like
       const Vec3 axis = (state.X_TI.p - level.port_m).normalized();
-      state.X_TI.R = Eigen::Quaterniond::FromTwoVectors(state.X_TI.R.col(2), axis) * state.X_TI.R;
+      state.X_TI.R = least_turn(state.X_TI.R.col(2), axis) * state.X_TI.R;
     }
     double rest = intent.jaw_opening_m;
     if (block.stiffness_n_per_m > 0 && rest < block.thickness_m)

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "haptics/contact/segment_triangle.h"
+#include "haptics/least_turn.h"
 #include "tests/haptics/contact/surfaces.h"
 #include "tissue/collision/patch_extraction.h"
 
@@ -268,7 +269,7 @@ TEST_F(Patch, SameInputSamePatch) {
   Random random(3);
   for (int k = 0; k < 20; ++k) {
     const Vec3 n = random.direction();
-    const Pose X{Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix(), n * 0.062};
+    const Pose X{least_turn(Vec3::UnitZ(), -n).toRotationMatrix(), n * 0.062};
     one.extract(X, {}, *patch);
     two.extract(X, {}, *other);
     ASSERT_EQ(patch->count, other->count);

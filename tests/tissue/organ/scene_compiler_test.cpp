@@ -72,6 +72,63 @@ TEST(SceneCompiler, NeighboursShareTheirTrianglesInOppositeWinding) {
               0.12 * (std::numbers::pi * 288 + strip));  // its rim is rounded
 }
 
+std::vector<TriangleSurface> parted_surfaces(int triangles) {
+  std::vector<TriangleSurface> surfaces;
+  for (CompiledOrgan& organ :
+       compile_scene(parted_ball(), {{0, 1, "", triangles}, {0, 2, "", triangles}, {0, 3, "", triangles}}, {}).organs)
+    surfaces.push_back(std::move(organ.surface));
+  return surfaces;
+}
+
+TEST(SceneCompiler, EvenSurfacesThatShareTrianglesStayAsTheyCame) {
+  const std::vector<TriangleSurface> surfaces = parted_surfaces(900);
+  const CompiledScene scene = compile_surfaces(surfaces, {.triangles = 2000});
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    EXPECT_EQ(scene.organs[n].surface.triangles.size(), surfaces[n].triangles.size());
+    EXPECT_NEAR(scene.organs[n].surface.volume_m3(), surfaces[n].volume_m3(), 1e-15);
+    EXPECT_LT(scene.organs[n].facts.hausdorff_m(), 1e-9);
+  }
+  ASSERT_EQ(scene.shared.size(), 3U);
+  for (const SharedInterface& shared : scene.shared)
+    for (const auto& [a, b] : shared.triangles)
+      EXPECT_EQ(corners(scene.organs[shared.first].surface, a, false),
+                corners(scene.organs[shared.second].surface, b, true));
+}
+
+TEST(SceneCompiler, FineSurfacesThatShareTrianglesAreRemeshedTogether) {
+  const CompiledScene scene = compile_surfaces(parted_surfaces(3000), {.triangles = 600});
+  for (const CompiledOrgan& organ : scene.organs) {
+    expect_sound(organ);
+    EXPECT_NEAR(static_cast<double>(organ.surface.triangles.size()), 600, 200);
+  }
+  ASSERT_EQ(scene.shared.size(), 3U);
+  for (const SharedInterface& shared : scene.shared) {
+    EXPECT_GT(shared.triangles.size(), 20U);
+    for (const auto& [a, b] : shared.triangles)
+      EXPECT_EQ(corners(scene.organs[shared.first].surface, a, false),
+                corners(scene.organs[shared.second].surface, b, true));
+  }
+}
+
+TEST(SceneCompiler, ASurfaceThatIsThereTwiceDoesNotSpoilItsNeighbours) {
+  std::vector<TriangleSurface> surfaces = parted_surfaces(900);
+  surfaces.push_back(surfaces[0]);
+  const CompiledScene scene = compile_surfaces(surfaces, {.triangles = 2000});
+  EXPECT_EQ(scene.shared.size(), 3U);
+  for (const CompiledOrgan& organ : scene.organs) expect_sound(organ);
+}
+
+TEST(SceneCompiler, SurfacesThatShareNothingAreCompiledAlone) {
+  std::vector<TriangleSurface> surfaces = parted_surfaces(900);
+  surfaces.resize(1);
+  surfaces.push_back(surfaces[0].transformed({Mat3::Identity(), Vec3(0.1, 0, 0)}));
+  surfaces.push_back(surfaces[0]);  // twice the same shares nothing: it is not on the other side
+  const CompiledScene scene = compile_surfaces(surfaces, {.triangles = 900});
+  EXPECT_TRUE(scene.shared.empty());
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+    EXPECT_EQ(ply_bytes(scene.organs[n].surface), ply_bytes(compile_surface(surfaces[n], {.triangles = 900}).surface));
+}
+
 TEST(SceneCompiler, OrgansTogetherFillTheBall) {
   const CompiledScene scene = compile_scene(parted_ball(), {{0, 1, "", 800}, {0, 2, "", 800}, {0, 3, "", 800}}, {});
   double sum = 0, voxels = 0;

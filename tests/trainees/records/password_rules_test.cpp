@@ -26,7 +26,7 @@ TEST(PasswordRules, RefusePinsThatAreTriedFirst) {
 TEST(PasswordRules, LeaveNearlyEveryPin) {
   int taken = 0;
   for (int pin = 0; pin < 1000000; pin += 7) {
-    char text[8];
+    char text[16];
     std::snprintf(text, sizeof text, "%06d", pin);
     if (refusal(text, Role::kTrainee).empty()) ++taken;
   }

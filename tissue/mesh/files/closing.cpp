@@ -194,7 +194,7 @@ void warn_of_size(const std::string& organ, ImportedSurface& result) {
   const auto size = organ_size(organ);
   const double longest_mm = result.surface.bounds().sizes().maxCoeff() * 1e3;
   if (!size || (longest_mm >= size->least_mm && longest_mm <= size->most_mm)) return;
-  result.warnings.push_back("measures " + fixed(longest_mm, 1) + " mm, of a " + size->name + " one expects " +
+  result.warnings.push_back("measures " + fixed(longest_mm, 1) + " mm, of " + size->with_article() + " one expects " +
                             fixed(size->least_mm, 0) + " to " + fixed(size->most_mm, 0) + " mm: check the unit");
 }
 

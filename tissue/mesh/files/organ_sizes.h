@@ -5,12 +5,17 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace trocar {
 
 struct OrganSize {
-  const char* name;
+  std::string_view name;
   double least_mm, most_mm;
+  std::string_view found_by = {};  ///< what names of it have in common, where that is not `name`
+
+  /// "a liver", "an artery"
+  std::string with_article() const;
 };
 
 /// The organ whose name is in the text, in any case and spelling of blanks ("VH_M_Gallbladder.glb").

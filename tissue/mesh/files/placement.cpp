@@ -33,7 +33,7 @@ std::string size_hint(const Eigen::AlignedBox3d& bounds, const std::string& orga
   out << "an organ measures 5 to 600 mm across, so "
       << (any.empty() ? "no unit among mm, cm, m fits" : "it would be in " + any);
   if (size)
-    out << "; of a " << size->name << " one expects " << size->least_mm << " to " << size->most_mm << " mm, "
+    out << "; of " << size->with_article() << " one expects " << size->least_mm << " to " << size->most_mm << " mm, "
         << (fitting.empty() ? "which no unit gives" : "which " + fitting + " gives");
   return out.str();
 }

@@ -19,9 +19,11 @@ CrossingKernel::Triangle_3 exact(const NumberedTriangle& t) {
   return {exact(t.points[0]), exact(t.points[1]), exact(t.points[2])};
 }
 
+Vec3 normal_of(const NumberedTriangle& t) { return (t.points[1] - t.points[0]).cross(t.points[2] - t.points[0]); }
+
 /// Whether all corners of b lie surely on one side of the plane of a.
 bool surely_beside(const NumberedTriangle& a, const NumberedTriangle& b) {
-  const Vec3 normal = (a.points[1] - a.points[0]).cross(a.points[2] - a.points[0]);
+  const Vec3 normal = normal_of(a);
   int above = 0, below = 0;
   for (const Vec3& p : b.points) {
     const Vec3 from = p - a.points[0];
@@ -57,6 +59,10 @@ bool overlap_at_edge(const NumberedTriangle& a, const NumberedTriangle& b) {
   return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
 }
 
+/// Of triangles of the same corners: back to back they are the common border of two bodies, alike one lies in the
+/// other.
+bool face_alike(const NumberedTriangle& a, const NumberedTriangle& b) { return normal_of(a).dot(normal_of(b)) > 0; }
+
 }  // namespace
 
 bool has_area(const NumberedTriangle& t) {
@@ -64,6 +70,7 @@ bool has_area(const NumberedTriangle& t) {
 }
 
 bool triangles_cross(NumberedTriangle a, NumberedTriangle b) {
+  const bool alike = face_alike(a, b);
   std::size_t shared = 0;  // the common corners are moved to the front of both
   for (std::size_t n = 0; n < 3; ++n) {
     const auto same = std::find(b.corners.begin() + static_cast<std::ptrdiff_t>(shared), b.corners.end(), a.corners[n]);
@@ -75,7 +82,7 @@ bool triangles_cross(NumberedTriangle a, NumberedTriangle b) {
   }
   if (shared == 0) return !surely_beside(a, b) && !surely_beside(b, a) && CGAL::do_intersect(exact(a), exact(b));
   if (shared == 1) return cross_at_corner(a, b);
-  return shared == 2 && overlap_at_edge(a, b);
+  return shared == 2 ? overlap_at_edge(a, b) : alike;
 }
 
 }  // namespace trocar

@@ -20,7 +20,7 @@ struct NumberedTriangle {
 /// False for three points on a line (exact).
 bool has_area(const NumberedTriangle& triangle);
 
-/// @param a, b with area, of different corners
+/// @param a, b with area. Of the same corners they cross where they face alike: back to back they are a common border.
 bool triangles_cross(NumberedTriangle a, NumberedTriangle b);
 
 }  // namespace trocar

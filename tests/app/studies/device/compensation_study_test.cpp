@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/cli/device/identify_command.h"
+#include "app/session/calibration/calibration_file.h"
 #include "app/studies/contact/transparency_study.h"
 #include "app/studies/device/force_study.h"
 #include "app/studies/device/gravity_study.h"
@@ -115,6 +116,28 @@ TEST(IdentifyCommand, RefusesBadRequests) {
   nowhere.quick = true;
   nowhere.out = "/nowhere/device.toml";
   EXPECT_THROW(identify_command(nowhere, out, err), EnvironmentError);
+  IdentifyOptions unweighed;
+  unweighed.quick = true;
+  unweighed.calibration_out = std::filesystem::temp_directory_path() / "trocar_unweighed.json";
+  EXPECT_THROW(identify_command(unweighed, out, err), InputError) << "no sensor, no calibration";
+}
+
+TEST(IdentifyCommand, ASensorSaysWhatTheDrivesGiveAndLeavesACalibration) {
+  IdentifyOptions options;
+  options.quick = options.json = true;
+  options.sensor = "serial";
+  options.calibration_out = std::filesystem::temp_directory_path() / "trocar_weighed.json";
+  std::ostringstream out, err;
+  EXPECT_EQ(identify_command(options, out, err), 0) << err.str();
+  const auto json = nlohmann::json::parse(out.str());
+  EXPECT_EQ(json.at("drives").at("sensor"), "serial");
+  EXPECT_EQ(json.at("drives").at("left_out"), 0);
+  const AmplifierCalibration written = read_calibration(options.calibration_out);
+  for (std::size_t j = 0; j < kArmJoints; ++j) {
+    const double nominal = nominal_transmissions()[j].amps_per_volt;
+    EXPECT_NEAR(written[j].amps_per_volt, nominal * json.at("drives").at("scale")[j].get<double>(), 1e-12) << j;
+  }
+  EXPECT_EQ(written[kPinchChannel].amps_per_volt, nominal_transmissions()[kPinchChannel].amps_per_volt);
 }
 
 }  // namespace

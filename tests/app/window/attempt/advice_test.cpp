@@ -74,8 +74,8 @@ TEST_F(AdviceTest, NothingLostLeadsOnward) {
 }
 
 TEST_F(AdviceTest, EveryPartOfEveryLevelHasASentenceOfItsOwn) {
-  for (const char* id :
-       {"surface-touch", "limited-grasp", "reach-and-orient", "ring-on-wire", "clip-and-cut", "needle-driving"}) {
+  for (const char* id : {"surface-touch", "limited-grasp", "reach-and-orient", "ring-on-wire", "clip-and-cut",
+                         "needle-driving", "bleeders-and-hook", "palpation", "gauze-cut"}) {
     const Exercise exercise = shipped_exercise(id);
     for (const ExerciseLevel& level : exercise.levels) {
       std::set<std::string> sentences;

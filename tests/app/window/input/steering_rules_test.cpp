@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "app/picture/scene/scope_optics.h"
+#include "haptics/least_turn.h"
 #include "tests/app/window/input/steered.h"
 
 namespace trocar::steering_rules_test {
@@ -63,7 +64,7 @@ TEST(SteeringWrist, KeysTurnWhereTheySay) {
 TEST(SteeringWrist, AShaftUprightInThePictureLeansAway) {
   Steered s;
   const Axes axes = axes_of(s.camera);
-  const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -axes.up).toRotationMatrix();
+  const Mat3 R = least_turn(Vec3::UnitZ(), -axes.up).toRotationMatrix();
   s.steering.begin({R, Vec3::Zero()}, 0.02, Vec3::Zero(), wide_reach());
   s.press('Z');
   s.run(0.3);

@@ -84,9 +84,9 @@ TEST_F(LessonScreens, CourseIsWalkedByArrowsAndEnterOpensTheBriefing) {
   tap(kKeyUp);
   EXPECT_EQ(model_->exercise_id + model_->level, "reach-and-orientexam");
   tap(kKeyEnd);
-  EXPECT_EQ(model_->exercise_id + model_->level, "needle-drivingexam");
+  EXPECT_EQ(model_->exercise_id + model_->level, "bleeders-and-hookexam");
   tap(kKeyDown);
-  EXPECT_EQ(model_->exercise_id + model_->level, "needle-drivingexam") << "nothing below the last";
+  EXPECT_EQ(model_->exercise_id + model_->level, "bleeders-and-hookexam") << "nothing below the last";
   tap(kKeyHome);
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);

@@ -26,6 +26,9 @@ bool is(const std::uint8_t* pixel, Rgb colour, int within = 6) {
 bool is_tip(const std::uint8_t* p) { return is(p, shape_colour(Ink::kTip), 12); }
 bool is_lit(const std::uint8_t* p) { return is(p, shape_colour(Ink::kAccent), 12); }
 
+/// Yellow in any light, and no orange.
+bool is_yellow(const std::uint8_t* p) { return p[0] > 150 && p[1] > 130 && p[0] - p[1] < 50 && p[1] - p[2] > 60; }
+
 struct Patch {
   int count = 0;
   double left = 1e9, right = -1, top = 1e9, bottom = -1;
@@ -128,6 +131,8 @@ Glance glance(const Image& picture) {
   out.high = picture.height;
   const Patch lit = patch_of(picture, is_lit, 10 * unit);
   if (lit.count > 8) out.lit = lit.middle(), out.lit_wide = lit.right - lit.left;
+  const Patch glow = patch_of(picture, is_yellow, 3 * unit);
+  if (glow.count > 60) out.glow = glow.middle();
   const Patch plumb = patch_of(picture, is_tip, 10 * unit);
   if (plumb.count > 8) {
     const double ring = std::min(plumb.bottom - plumb.top, 0.6 * (plumb.right - plumb.left));
@@ -230,17 +235,21 @@ std::vector<InputEvent> PicturePlayer::press(double t_s, const Glance& seen) {
 
 /// Over the block, which the tip then goes down to by itself; squeeze until the bar is green; over its ring; open.
 std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
-  const double off = way(*seen.foot, *seen.lit);
+  const std::optional<Spot> there = task_ == Task::kPegs && stage_ == Stage::kCarry ? seen.glow
+                                    : seen.lit                                      ? seen.lit
+                                                                                    : goal_;
+  if (!there) return {};
+  const double off = way(*seen.foot, *there);
   switch (stage_) {
     case Stage::kAim:
       doing = "over the block";
-      if (off > 7) return aim(t_s, *seen.foot, *seen.lit);
-      goal_ = seen.lit;
+      if (off > 7) return aim(t_s, *seen.foot, *there);
+      goal_ = there;
       stage_ = Stage::kPress;
       wait_until_s_ = t_s + 1.2;  // it goes down
       return {};
     case Stage::kPress:
-      if (down_ && goal_ && way(*goal_, *seen.lit) > kMoved_px && seen.force == Glance::Force::kNone) break;
+      if (down_ && goal_ && way(*goal_, *there) > kMoved_px && seen.force == Glance::Force::kNone) break;
       {
         auto out = press(t_s, seen);
         if (stage_ == Stage::kKeep) stage_ = Stage::kCarry;
@@ -248,11 +257,11 @@ std::vector<InputEvent> PicturePlayer::grasp(double t_s, const Glance& seen) {
       }
     case Stage::kCarry:
       doing = "carry";
-      if (way(*goal_, *seen.lit) < kMoved_px) {  // it was not held
+      if (way(*goal_, *there) < kMoved_px) {  // it was not held
         if (t_s - since_s_ > 2) stage_ = Stage::kLift;
         return {};
       }
-      if (off > 10) return aim(t_s, *seen.foot, *seen.lit);
+      if (off > (task_ == Task::kPegs ? 15 : 10)) return aim(t_s, *seen.foot, *there);
       if (std::abs(way(*seen.foot, *seen.tip) - plumb_px_) > 3) {  // it goes down by itself
         plumb_px_ = way(*seen.foot, *seen.tip);
         settled_s_ = t_s;
@@ -322,18 +331,20 @@ std::vector<InputEvent> PicturePlayer::reach(double t_s, const Glance& seen) {
 
 std::vector<InputEvent> PicturePlayer::decide(double t_s, const Glance& seen) {
   if (t_s < wait_until_s_ || !seen.tip) return {};
-  if (!seen.lit) {  // nothing is lit: a grip is asked for, or it is over
+  const bool carries = task_ == Task::kPegs && (stage_ == Stage::kPress || stage_ == Stage::kCarry);
+  if (!seen.lit && !carries) {  // nothing is lit: a grip is asked for, or it is over
     if (dark_s_ < 0) dark_s_ = t_s;
     if (t_s - dark_s_ < 0.8) return {};
     if (stage_ == Stage::kAim) stage_ = Stage::kPress;
     return press(t_s, seen);
   }
   dark_s_ = -1;
+  if (carries) return grasp(t_s, seen);
   if (!ball_) ball_ = seen.lit;  // the first that is lit
   const bool ball = way(*ball_, *seen.lit) < kBall_px;
   if (!ball) ball_ = Spot{-1000, -1000};
   if (task_ == Task::kReach && !ball) return reach(t_s, seen);
-  if (task_ == Task::kGrasp && !ball) return grasp(t_s, seen);
+  if ((task_ == Task::kGrasp || task_ == Task::kPegs) && !ball) return grasp(t_s, seen);
   if (task_ == Task::kRetract && !ball) return retract(t_s, seen);
   const bool moved = goal_ && way(*goal_, *seen.lit) > kMoved_px;
   goal_ = seen.lit;

@@ -26,7 +26,8 @@ struct Glance {
   enum class Force { kNone, kLow, kGood, kHigh } force = Force::kNone;  ///< colour of the bar at the tip
   /// The two dials: where the yellow dot is, 1 at the rim, up positive; nothing while it is within its ring.
   std::optional<Spot> place, turn;
-  double roll_rad = 0;  ///< of the white mark, from the top, clockwise
+  double roll_rad = 0;       ///< of the white mark, from the top, clockwise
+  std::optional<Spot> glow;  ///< middle of the largest yellow: on a board, where what is carried belongs
 };
 Glance glance(const Image& picture);
 
@@ -35,7 +36,7 @@ class PicturePlayer {
   static constexpr double kEye_s = 0.3;
 
   /// What the briefing has taught.
-  enum class Task { kTouch, kReach, kGrasp, kRetract };
+  enum class Task { kTouch, kReach, kGrasp, kRetract, kPegs };
   PicturePlayer(PlayerHand& hand, Task task) : hand_(hand), task_(task) {}
   /// Whether it looks now: not while its hand moves, and not before what it has done can be seen.
   bool looks(double t_s) const;

@@ -67,7 +67,7 @@ class PicturePlay : public LoopBench {
     const char* kept_in = std::getenv("PLAYER_PICTURES");
     std::vector<InputEvent> events;
     int n = 0;
-    for (double t_s = 0; loop_->here() != ScreenName::kDebrief && t_s < 300; t_s += kFrame_s) {
+    for (double t_s = 0; loop_->here() != ScreenName::kDebrief && t_s < 320; t_s += kFrame_s) {
       steps_.advance(kFrame_s);
       const bool kept = kept_in && n++ % kKeepEvery == 0, looks = player.looks(t_s), drawn = looks || kept || filmed;
       loop_->draw_scopes(drawn);
@@ -118,6 +118,8 @@ class PictureSweep : public PicturePlay, public ::testing::WithParamInterface<In
 TEST_P(PictureSweep, SurfaceTouchWithinFive) { passes_within("E02", Task::kTouch, 5); }
 TEST_P(PictureSweep, ReachAndOrientWithinFifteen) { passes_within("E01", Task::kReach, 15); }
 TEST_P(PictureSweep, LimitedGraspWithinFifteen) { passes_within("E03", Task::kGrasp, 15); }
+
+TEST_P(PictureSweep, PegTransferWithinFifteen) { passes_within("E05", Task::kPegs, 15); }
 
 TEST_P(PictureSweep, RetractAndHoldWithinFifteen) { passes_within("E09", Task::kRetract, 15); }
 

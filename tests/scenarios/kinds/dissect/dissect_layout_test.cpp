@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/least_turn.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/dissect/dissect_rules.h"
 #include "tests/scenarios/support/bad_exercise.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kTop = 0.01;  // m of the plate
 
 Exercise bleeders_and_hook() {
-  return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded");
+  return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
 }
 
 /// A plate with a vertex every 2 mm on its top.
@@ -43,7 +44,7 @@ TEST(DissectLayout, EveryBoardHasFiveStrandsAcrossTheFootAndThreeVesselsApart) {
   for (const ExerciseLevel& level : exercise.levels) {
     Mat3 R = pointing_down();
     if (level.mapping == Mapping::kFulcrum)
-      R = Eigen::Quaterniond::FromTwoVectors(R.col(2), Vec3(0, 0, kTop) - level.port_m).toRotationMatrix() * R;
+      R = least_turn(R.col(2), Vec3(0, 0, kTop) - level.port_m).toRotationMatrix() * R;
     const Vec3 foot = (-R.col(1) + R.col(1).z() * Vec3::UnitZ()).normalized();
     for (int board = 0; board < 20; ++board) {
       const Board out = lay_out_dissection(exercise, level, board, {organ, nullptr, pointing_down()});

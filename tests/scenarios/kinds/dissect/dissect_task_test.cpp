@@ -11,6 +11,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
+#include "scenarios/scoring/score.h"
 #include "tissue/tissue_frame.h"
 
 namespace trocar::dissect_task_test {
@@ -19,9 +20,7 @@ namespace {
 constexpr double kStep_s = 0.01;
 constexpr double kHigh = 0.007, kLow = 0.004, kOn = 0.0;  // m of the tip off the organ
 
-Exercise shipped() {
-  return find_exercise("E13", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded");
-}
+Exercise shipped() { return find_exercise("E13", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises"); }
 
 /// A told instrument and a told frame; the exercise has begun. Objects lie 12 mm apart along x.
 struct Bench {
@@ -39,6 +38,8 @@ struct Bench {
     step(1.2);
   }
   static Vec3 place(int target) { return {0.012 * target - 0.04, 0, 0}; }
+  /// 4 mm beside the board's place: where a vertex of the organ is.
+  static Vec3 bleeds_at(int vessel) { return place(kStrands + vessel) + Vec3(0, 0.004, 0); }
   static Board board() {
     Board out;
     out.start_T = Vec3(0, 0, 0.055);
@@ -51,6 +52,7 @@ struct Bench {
       director.update(stylus, &frame);
       TraceSample sample;
       sample.t_s = stylus.t_s;
+      sample.tip_T = stylus.X_TI.p;
       sample.pedal = stylus.pedal;
       trace.samples.push_back(sample);
     }
@@ -81,12 +83,16 @@ struct Bench {
   }
   void spurt(double blood_ml = 0) {
     frame.wound_count = kSpurters;
-    for (int i = 0; i < kSpurters; ++i) frame.wound[static_cast<std::size_t>(i)].open_vessels = 1;
+    for (int i = 0; i < kSpurters; ++i) {
+      WoundSeen& wound = frame.wound[static_cast<std::size_t>(i)];
+      wound.place_T = bleeds_at(i);
+      wound.open_vessels = 1;
+    }
     frame.surgery.blood_ml = blood_ml;
     step(kStep_s);
   }
   void seal(int vessel, double seconds = 1.5, double blood_ml = 3) {
-    at(place(kStrands + vessel), kOn);
+    at(bleeds_at(vessel), kOn);
     frame.surgery.contact_c = 100;
     burn(seconds);
     frame.surgery.blood_ml = blood_ml;
@@ -107,7 +113,22 @@ struct Bench {
       if (metric.name == name) return metric.value.value_or(-1);
     return -2;
   }
+  Grade grade() {
+    const auto context = scoring_context(exercise, level, director.board(), director.events(), director.outcome());
+    trace.rate_hz = 1 / kStep_s;
+    return grade_metrics(compute_metrics(trace, director.events(), context), level.rubric,
+                         {director.outcome(), context.objects_done, context.objects_total});
+  }
 };
+
+/// A quick run without unsafe current, with so many of the strands lifted.
+Grade quick_run(int lifted) {
+  Bench bench;
+  for (int strand = 0; strand < kStrands; ++strand) bench.divide(strand, strand < lifted ? kHigh : kLow);
+  bench.spurt();
+  for (int vessel = 0; vessel < kSpurters; ++vessel) bench.seal(vessel, 1.5, 3.0 * (vessel + 1));
+  return bench.grade();
+}
 
 TEST(DissectTask, IsDoneOnceAllStrandsAreDividedAndAllVesselsSealed) {
   Bench bench;
@@ -136,6 +157,15 @@ TEST(DissectTask, AStrandDividedTooLowOrTornIsNotLifted) {
   EXPECT_EQ(bench.director.status().message, "A strand tore");
   EXPECT_DOUBLE_EQ(bench.metric("strands_lifted_share"), 0);
   EXPECT_EQ(bench.director.status().target_index, 2) << "what is divided is not asked for again";
+}
+
+TEST(DissectTask, WhoDividesNearlyAllStrandsTooLowDoesNotPassHoweverQuick) {
+  EXPECT_TRUE(quick_run(3).passed);
+  for (const int lifted : {0, 1}) {
+    const Grade grade = quick_run(lifted);
+    EXPECT_FALSE(grade.passed) << lifted;
+    EXPECT_LT(grade.score.value_or(100), 59) << lifted;
+  }
 }
 
 TEST(DissectTask, CurrentNearTheOrganIsUnsafeButForAMoment) {
@@ -191,7 +221,8 @@ TEST(DissectTask, TheTipMayTouchBesideTheLitVesselAndNowhereElse) {
   Bench bench;
   for (int strand = 0; strand < kStrands; ++strand) bench.divide(strand, kHigh);
   bench.spurt();
-  bench.at(Bench::place(kStrands + 1), kOn);  // another than the lit one
+  EXPECT_LT((bench.director.status().demand.centre_T - Bench::bleeds_at(0)).norm(), 1e-9) << "where it bleeds";
+  bench.at(Bench::bleeds_at(1), kOn);  // another than the lit one
   bench.burn(1);
   bench.let_go();
   EXPECT_EQ(bench.count(event_type::kUnsafeCurrent, Severity::kMinor), 1);

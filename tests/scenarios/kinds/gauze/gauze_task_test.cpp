@@ -22,7 +22,7 @@ namespace {
 constexpr double kStep_s = 0.01;
 
 Exercise shipped() {
-  return load_exercise(std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/ungraded/gauze-cut.toml");
+  return load_exercise(std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises/gauze-cut.toml");
 }
 
 /// A level plate, 200 mm square.

@@ -27,13 +27,19 @@ struct JobWorld {
       : foam(kFoams[foam_index]), told(told_in), job(skill), senses(skill.reaction_s), random(seed) {
     block.p = Vec3(-0.03, 0, kHalfHeight);
     intent.X_TI.p = tip = Vec3(0, 0, 0.06);
-    intent.X_TI.R = Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix();
+    intent.X_TI.R = down();
+  }
+
+  static Mat3 down() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix(); }
+  double roll() const {
+    const Mat3 rolled = down().transpose() * intent.X_TI.R;
+    return std::atan2(rolled(1, 0), rolled(0, 0));
   }
 
   Percept look() const {
     Percept seen;
     seen.tip_T = tip;
-    seen.R_TI = intent.X_TI.R;
+    seen.R_TI = down() * Eigen::AngleAxisd(std::clamp(roll(), -roll_end, roll_end), Vec3::UnitZ()).toRotationMatrix();
     seen.felt_force_T = Vec3(0, 0, board_n);
     seen.felt_grip_n = grip_n;
     seen.shown_grip_n = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +47,7 @@ struct JobWorld {
     seen.cue = Cue::kPick;
     seen.target_radius_m = 0.004;
     if (told) seen.band_low_n = foam.low_n, seen.band_high_n = foam.high_n;
-    seen.object = {block, Vec3(kThick, kThick, 2 * kHalfHeight), slipping};
+    seen.object = {block, size, slipping};
     seen.goal_T = ring;
     for (const FoamLore& lore : kFoams) seen.foam[static_cast<std::size_t>(seen.foam_count++)] = lore;
     return seen;
@@ -61,7 +67,7 @@ struct JobWorld {
     if (between && rest < kThick)
       rest = (kFinger * rest + foam.stiffness_n_per_m * kThick) / (kFinger + foam.stiffness_n_per_m);
     jaw += (rest - jaw) * kDt / kFingerLag;
-    grip_n = between ? foam.stiffness_n_per_m * std::max(0.0, kThick - jaw) : 0;
+    grip_n = between ? foam.stiffness_n_per_m * std::max(0.0, kThick - jaw) : kFinger * std::max(0.0, -jaw);
     hold();
     t_s += kDt;
   }
@@ -71,7 +77,7 @@ struct JobWorld {
       held = true;
       ++grasps;
       offset = block.p - tip;
-    } else if (held && grip_n < 0.05) {
+    } else if (held && (grip_n < 0.05 || vanished)) {
       held = false;
       let_go_at = block.p;
     }
@@ -107,6 +113,8 @@ struct JobWorld {
   HandRandom random;
   HandIntent intent;
   Pose block;
+  Vec3 size{kThick, kThick, 2 * kHalfHeight};
+  double roll_end = 10;       ///< rad about the shaft that the wrist goes
   Vec3 drift = Vec3::Zero();  ///< of the tip against what the hand wants
   Vec3 tip, offset = Vec3::Zero(), let_go_at = Vec3::Zero(), ring{0.03, 0, 0};
   double jaw = 0.02, grip_n = 0, board_n = 0, t_s = 0, highest = 0, fastest_step = 0;
@@ -128,6 +136,34 @@ TEST(GraspJob, BringsTheBlockAndWithdraws) {
   EXPECT_GT(world.jaw, kThick + 0.004) << "open jaws";
   EXPECT_GT(world.tip.z(), 0.015) << "out of the way";
   EXPECT_LT(world.fastest_step, 0.6 * kDt) << "no jumps";
+}
+
+TEST(GraspJob, SeesThatTheBlockIsGoneWhenPadsFeelEachOther) {
+  JobWorld world(steady());
+  world.begin();
+  ASSERT_TRUE(world.run(15, [&] { return world.highest > 0.025; }));
+  world.vanished = true;
+  world.jaw = world.intent.jaw_opening_m = -0.005;  // the pads press each other
+  double furthest = 0;
+  world.run(10, [&] {
+    furthest = std::max(furthest, (world.tip - world.block.p).norm());
+    return false;
+  });
+  EXPECT_LT(furthest, 0.10) << "it goes back to the block instead of carrying nothing on and on";
+  EXPECT_LT((world.tip - world.block.p).norm(), 0.05);
+}
+
+TEST(GraspJob, DoesNotPressOnAgainstTheEndOfTheWrist) {
+  JobWorld world(steady());
+  world.size.y() = 0.030;  // only its other sides fit, and these ask for a quarter turn
+  world.roll_end = 0.8;
+  world.begin();
+  ASSERT_TRUE(world.run(5, [&] { return std::abs(world.roll()) > 1.2; })) << "it tries";
+  for (int i = 0; i < 20; ++i) {
+    world.begin();
+    world.run(3, [] { return false; });
+    EXPECT_LT(std::abs(world.roll()), world.roll_end + 0.35) << i;
+  }
 }
 
 TEST(GraspJob, TellsTheFoamByFeelWhenNoColourDoes) {

@@ -14,9 +14,7 @@
 namespace trocar::palpate_layout_test {
 namespace {
 
-Exercise shipped() {
-  return load_exercise(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded/palpation.toml");
-}
+Exercise shipped() { return load_exercise(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/palpation.toml"); }
 
 TEST(PalpateLayout, TwentyBoardsOfEachLevel) {
   const Exercise exercise = shipped();

@@ -19,7 +19,7 @@ namespace {
 class PalpateTest : public testing::Test {
  protected:
   explicit PalpateTest(const char* level = "L2")
-      : exercise_(load_exercise(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/ungraded/palpation.toml")),
+      : exercise_(load_exercise(std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises/palpation.toml")),
         level_(find_level(exercise_, level)),
         director_(exercise_, level_, board()) {
     state_.loop = LoopState::kActive;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/reach/pose_task.h"
 
@@ -61,7 +62,7 @@ TEST(PenLayout, LiesOnTheLineThroughThePort) {
     for (const Target& pen : lay_out_pens(shipped(), level, resting(), number).targets) {
       const Vec3 axis = (pen.centre_T - level.port_m).normalized();
       EXPECT_TRUE(pen.R_TI.col(2).isApprox(axis, 1e-9)) << "the shaft of a matched pen passes the port";
-      const Mat3 unrolled = Eigen::Quaterniond::FromTwoVectors(resting().col(2), axis).toRotationMatrix() * resting();
+      const Mat3 unrolled = least_turn(resting().col(2), axis).toRotationMatrix() * resting();
       const double roll = std::atan2(unrolled.col(1).dot(pen.R_TI.col(0)), unrolled.col(0).dot(pen.R_TI.col(0)));
       smallest = std::min(smallest, roll);
       largest = std::max(largest, roll);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "haptics/least_turn.h"
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/wire/wire_layout.h"
@@ -39,7 +40,7 @@ class RingTest : public testing::Test {
     const Vec3 tangent =
         (board_.wire_T[std::min(point + 1, board_.wire_T.size() - 1)] - board_.wire_T[point - 1]).normalized();
     const Mat3 R = Eigen::AngleAxisd(turn_rad, Vec3::UnitY()).toRotationMatrix() *
-                   Eigen::Quaterniond::FromTwoVectors(ring_.normal_I, tangent).toRotationMatrix();
+                   least_turn(ring_.normal_I, tangent).toRotationMatrix();
     state_.X_TI = {R, board_.wire_T[point] + aside_T - R * ring_.centre_I};
   }
   /// Point by point, two centimetres a second.

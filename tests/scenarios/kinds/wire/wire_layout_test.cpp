@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/input_error.h"
+#include "haptics/least_turn.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/wire/wire_rules.h"
 
@@ -25,8 +26,7 @@ TEST(WireLayout, EveryBoardOfEveryLevelIsLaidOut) {
   for (const ExerciseLevel& level : exercise.levels) {
     const bool port = level.mapping == Mapping::kFulcrum;
     // A port asks for the shaft on its line, at rest too.
-    const Mat3 R_rest =
-        port ? Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -level.port_m).toRotationMatrix() : Mat3::Identity();
+    const Mat3 R_rest = port ? least_turn(Vec3::UnitZ(), -level.port_m).toRotationMatrix() : Mat3::Identity();
     const RingOnWire ring = ring_of(exercise, level);
     for (int board = 0; board < 20; ++board) {
       const Board out = lay_out_wire(exercise, level, R_rest, board);

@@ -76,6 +76,18 @@ TEST(Nrrd, ObliqueDirectionsArePlacedVoxelByVoxel) {
   EXPECT_TRUE(image.notes.empty());
 }
 
+TEST(Nrrd, UnitsThatDifferByAxisAreRefusedUnlessOneIsAskedFor) {
+  test::TemporaryFolder folder;
+  const std::string place = "encoding: raw\nendian: little\nspace: RAS\n" + kPlace;
+  const std::string data = "\n" + packed<std::int16_t>(told_indices());
+  const auto path = folder.write("a.nrrd", header(place + "space units: \"mm\" \"cm\" \"mm\"\n") + data);
+  EXPECT_CONTAINS(test::image_refusal(path), "different units along different axes");
+  const Eigen::Affine3d frame = frame_of(Eigen::Vector3d(2, 3, 4).asDiagonal(), {-10, 20, 30});
+  test::expect_told_indices(read_image_volume(path, {}, {.unit = "mm", .space = ""}), frame);
+  const auto alike = folder.write("b.nrrd", header(place + "space units: \"mm\" \"mm\" \"mm\"\n") + data);
+  test::expect_told_indices(read_image_volume(alike), frame);
+}
+
 TEST(Nrrd, SpacingsAndAxisMinsNeedASpaceThatSomebodyNames) {
   test::TemporaryFolder folder;
   const std::string start = "encoding: raw\nendian: little\nspacings: 2 3 4\naxis mins: 10 20 30\n";

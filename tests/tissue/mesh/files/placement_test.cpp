@@ -65,6 +65,7 @@ TEST(Placement, TheOrgansNameSharpensTheHint) {
   EXPECT_CONTAINS(refusal(silent(), {}, 60, "gallbladder"),
                   "of a gallbladder one expects 30 to 130 mm, which mm gives");
   EXPECT_CONTAINS(refusal(silent(), {}, 6, "liver"), "which no unit gives");
+  EXPECT_CONTAINS(refusal(silent(), {}, 6, "Hepatic_arteries"), "of an artery one expects 20 to 500 mm");
 }
 
 TEST(Placement, TheFilesOwnUnitIsTaken) {

@@ -30,7 +30,12 @@ TEST(SurfaceCheck, FindsWhichSurfacesCrossAndLetsThemShareFaces) {
   const TriangleSurface one = box(Vec3::Zero(), Vec3::Ones()), inside = box(Vec3::Constant(.2), Vec3::Constant(.4)),
                         over = box(Vec3(.9, .9, .9), Vec3::Constant(2)), beside = box(Vec3(1, 0, 0), Vec3(2, 1, 1));
   EXPECT_TRUE(surface_crossings({&one, &inside}).empty()) << "a surface inside another one";
-  EXPECT_TRUE(surface_crossings({&one, &one}).empty()) << "the same triangles";
+  TriangleSurface round_it = one;
+  for (auto& triangle : round_it.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_TRUE(surface_crossings({&one, &round_it}).empty()) << "the same triangles, back to back: a common border";
+  const auto twice = surface_crossings({&one, &one});
+  ASSERT_EQ(twice.size(), 1U) << "one body lies in the other";
+  EXPECT_EQ(twice[0].pairs, one.triangles.size());
   EXPECT_TRUE(surface_crossings({&one}).empty());
   const auto found = surface_crossings({&beside, &one, &inside, &over});
   ASSERT_FALSE(found.empty());

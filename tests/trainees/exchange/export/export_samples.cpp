@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "haptics/least_turn.h"
+
 namespace trocar::test {
 
 CsvTable read_csv(const std::string& text) {
@@ -106,7 +108,7 @@ std::string jigsaws_layout(const Trace& trace) {
   std::ostringstream out;
   out.precision(17);
   for (const TraceSample& sample : trace.samples) {
-    const Mat3 R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), sample.shaft_T).toRotationMatrix();
+    const Mat3 R = least_turn(Vec3::UnitZ(), sample.shaft_T).toRotationMatrix();
     for (int i = 0; i < 57; ++i) out << "0 ";
     out << sample.tip_T.transpose() << ' ' << R.row(0) << ' ' << R.row(1) << ' ' << R.row(2) << " 0 0 0 0 0 0 "
         << 2 * std::asin(sample.jaw_opening_m / (2 * 0.020)) << '\n';  // jaws of 20 mm
