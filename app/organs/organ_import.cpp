@@ -16,6 +16,7 @@
 #include "haptics/input_error.h"
 #include "haptics/utf8.h"
 #include "tissue/imaging/labels/label_table_file.h"
+#include "tissue/imaging/labels/one_layer.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/imaging/volumes/volume_reader.h"
 #include "tissue/organ/organ_compiler.h"
@@ -201,10 +202,10 @@ class LabelWords {
   std::optional<OwnLabelTable> table_;
 };
 
-std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const std::vector<ChosenLabel>& labels) {
+std::vector<SceneRequest> requests_of(const OrganImportOptions& options, const std::vector<Segment>& segments) {
   std::vector<SceneRequest> requests;
-  for (const ChosenLabel& label : labels)
-    requests.push_back({label.segment.layer, label.segment.number, file_name_of(label.segment), options.triangles});
+  for (const Segment& segment : segments)
+    requests.push_back({segment.layer, segment.number, file_name_of(segment), options.triangles});
   return requests;
 }
 
@@ -228,16 +229,14 @@ OrganSet set_of(const OrganImportOptions& options, const LabelMap& map, const Co
 }
 
 /// One organ of a scene, with its files.
-CompiledMember member_of(const OrganImportOptions& options, const ImportSource& source, const ChosenLabel& label,
+CompiledMember member_of(const OrganImportOptions& options, OrganManifest&& manifest, const LabelledOrgan& made_from,
                          const OrganNaming& naming, CompiledOrgan&& organ, std::vector<std::string> decisions,
                          const fs::path& stem, std::vector<SideFile>& files) {
-  OrganManifest manifest = label_manifest(options, source, label);
   name_organ(naming, manifest);
   decisions.insert(decisions.begin(), naming.decisions.begin(), naming.decisions.end());
   manifest.mesh = std::move(organ.facts);
   manifest.decisions = untold(decisions, manifest.mesh.repairs);
   const fs::path member = member_stem(stem, manifest.name);
-  const LabelledOrgan made_from{&source.map.layers[label.segment.layer], label.segment.number};
   for (SideFile& file : volume_meshes(options, member, organ.surface, made_from, manifest))
     files.push_back(std::move(file));
   for (SideFile& file : vessel_files(options, member, made_from, manifest.name)) files.push_back(std::move(file));
@@ -248,13 +247,20 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
                            const std::vector<ChosenLabel>& labels, const std::vector<std::string>& decisions,
                            const fs::path& stem) {
   const std::vector<OrganNaming> names = name_labels(options, labels, source.map, source.stem, source.file, true);
-  const std::vector<SceneRequest> requests = requests_of(options, labels);
-  CompiledScene scene = compile_scene(source.map, requests, {{.only_largest = options.largest_only}, options.progress});
+  std::vector<Segment> segments;
+  for (const ChosenLabel& label : labels) segments.push_back(label.segment);
+  const std::optional<LabelMap> flat = in_one_layer(source.map, segments);
+  if (flat)
+    for (Segment& segment : segments) segment.layer = 0;
+  const LabelMap& map = flat ? *flat : source.map;
+  CompiledScene scene =
+      compile_scene(map, requests_of(options, segments), {{.only_largest = options.largest_only}, options.progress});
   WrittenOrgans written;
   for (std::size_t n = 0; n < labels.size(); ++n)
-    written.organs.push_back(
-        member_of(options, source, labels[n], names[n], std::move(scene.organs[n]), decisions, stem, written.files));
-  written.set = set_of(options, source.map, scene, written.organs);
+    written.organs.push_back(member_of(options, label_manifest(options, source, labels[n]),
+                                       {&map.layers[segments[n].layer], segments[n].number}, names[n],
+                                       std::move(scene.organs[n]), decisions, stem, written.files));
+  written.set = set_of(options, map, scene, written.organs);
   written.set->name = options.name.empty() ? stem.filename().string() : options.name;
   written.values = values_of(options, source, labels);
   written.image = std::move(source.image);

@@ -239,6 +239,11 @@ def search_share(attempt):
     return (attempt.count("NODULE_FOUND") - attempt.count("FALSE_MARK")) / attempt.context["objects_total"]
 
 
+def pressed_well_share(attempt):
+    presses = [e for e in attempt.events if e["type"] == "PLACE_PRESSED"]
+    return sum(e["value"] for e in presses if e["severity"] == "info") if presses else None
+
+
 def right_answers_share(attempt):
     if not attempt.count("ANSWERED", "WRONG_ANSWER"):
         return None
@@ -434,6 +439,7 @@ METRICS = {
     "cut_area_share": gauze_metric(lambda a: sum_of(a, "SNIP")),
     "cut_outside_share": gauze_metric(lambda a: min(1, sum_of(a, "OFF_LINE"))),
     "hard_pulls": gauze_metric(lambda a: a.count("PULLED_HARD")),
+    "pressed_well_share": pressed_well_share,
     "localisation_error_m": lambda a: mean_value(a, "NODULE_FOUND"),
 }
 

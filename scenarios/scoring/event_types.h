@@ -45,7 +45,8 @@ inline constexpr EventType kWallContact{"WALL_CONTACT"}, kHorizonLost{"HORIZON_L
 // Wire
 inline constexpr EventType kWireTouched{"WIRE_TOUCHED"}, kRingOff{"RING_OFF"};
 // Palpate
-inline constexpr EventType kNoduleFound{"NODULE_FOUND"}, kFalseMark{"FALSE_MARK"}, kSearchEnded{"SEARCH_ENDED"};
+inline constexpr EventType kNoduleFound{"NODULE_FOUND"}, kFalseMark{"FALSE_MARK"}, kSearchEnded{"SEARCH_ENDED"},
+    kPlacePressed{"PLACE_PRESSED"};
 // Retract
 inline constexpr EventType kTissueTaken{"TISSUE_TAKEN"}, kExposed{"EXPOSED"}, kCovered{"COVERED"}, kLetGo{"LET_GO"};
 // Pegs
@@ -69,19 +70,19 @@ inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 
 /// All of them.
 inline constexpr EventType kAll[] = {
-    kStart,         kDone,           kTimeout,       kDeadmanOpen,   kDeviceFault,    kExcessForce, kCriticalForce,
-    kToolCollision, kDeviceLimit,    kClutch,        kPortHold,      kInstrumentFree, kCut,         kTear,
-    kClip,          kRefused,        kBleeding,      kBurn,          kNeedle,         kPuncture,    kStitch,
-    kThrow,         kTargetLit,      kTargetHeld,    kTargetTouched, kWrongPlace,     kGripTouched, kGripExcess,
-    kGripHeld,      kGripOffered,    kPositionError, kAngleError,    kTargetTimeout,  kRegrasp,     kLifted,
-    kSetDown,       kSlip,           kCrush,         kDrop,          kPlaced,         kMisplaced,   kLost,
-    kGrasped,       kWrongBlock,     kRemoved,       kWallContact,   kHorizonLost,    kHorizonKept, kViewJerks,
-    kWireTouched,   kRingOff,        kNoduleFound,   kFalseMark,     kSearchEnded,    kTissueTaken, kExposed,
-    kCovered,       kLetGo,          kBump,          kAnswered,      kWrongAnswer,    kNamed,       kClipSet,
-    kClipWasted,    kWrongStructure, kDivided,       kCutTooSoon,    kSnip,           kOffLine,     kPulledHard,
-    kGauzeTorn,     kNeedleGripped,  kBiteBegun,     kBiteThrough,   kBiteUndone,     kNeedleDrawn, kNeedleLost,
-    kStrandLifted,  kStrandDivided,  kCurrentUsed,   kUnsafeCurrent, kSpurts,         kSealed,      kSealedLate,
-    kPerforated,    kMarked,         kMessage};
+    kStart,         kDone,         kTimeout,        kDeadmanOpen,   kDeviceFault,    kExcessForce,  kCriticalForce,
+    kToolCollision, kDeviceLimit,  kClutch,         kPortHold,      kInstrumentFree, kCut,          kTear,
+    kClip,          kRefused,      kBleeding,       kBurn,          kNeedle,         kPuncture,     kStitch,
+    kThrow,         kTargetLit,    kTargetHeld,     kTargetTouched, kWrongPlace,     kGripTouched,  kGripExcess,
+    kGripHeld,      kGripOffered,  kPositionError,  kAngleError,    kTargetTimeout,  kRegrasp,      kLifted,
+    kSetDown,       kSlip,         kCrush,          kDrop,          kPlaced,         kMisplaced,    kLost,
+    kGrasped,       kWrongBlock,   kRemoved,        kWallContact,   kHorizonLost,    kHorizonKept,  kViewJerks,
+    kWireTouched,   kRingOff,      kNoduleFound,    kFalseMark,     kSearchEnded,    kPlacePressed, kTissueTaken,
+    kExposed,       kCovered,      kLetGo,          kBump,          kAnswered,       kWrongAnswer,  kNamed,
+    kClipSet,       kClipWasted,   kWrongStructure, kDivided,       kCutTooSoon,     kSnip,         kOffLine,
+    kPulledHard,    kGauzeTorn,    kNeedleGripped,  kBiteBegun,     kBiteThrough,    kBiteUndone,   kNeedleDrawn,
+    kNeedleLost,    kStrandLifted, kStrandDivided,  kCurrentUsed,   kUnsafeCurrent,  kSpurts,       kSealed,
+    kSealedLate,    kPerforated,   kMarked,         kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

@@ -174,6 +174,8 @@ constexpr MetricDefinition kCatalogue[] = {
      "(count of NODULE_FOUND - count of FALSE_MARK) / all objects", kMore},
     {"localisation_error_m", "m", "distance of a right mark from its nodule along the surface, mean over them",
      "mean of NODULE_FOUND", kLess},
+    {"pressed_well_share", "1", "share of the region whose first press had the wanted force at its most",
+     "sum of PLACE_PRESSED in band", kMore},
     {"searched_share", "1", "share of the region that was pressed", "value of SEARCH_ENDED", kMore},
     {"bumps", "1", "times that a ring came down on a peg too far from its middle", "count of BUMP", kLess, kErrors},
     {"grip_marks", "1", "times that a carried ring was held so tightly that it was marked", "count of GRIP_EXCESS",

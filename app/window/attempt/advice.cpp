@@ -204,6 +204,8 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: take each block in its middle, firmly enough to carry it at one go.");
   if (m == "search_share")
     return words("Try next: press the whole region point by point, go back to the hardest places, and then mark.");
+  if (m == "pressed_well_share")
+    return words("Try next: come down slowly, stop within the band, and press every place with that same force.");
   if (m == "localisation_error_m") return words("Try next: press all round a hard place before you mark its middle.");
   if (m == "objects_done_share") return placing_advice(a);
   if (m == "path_ratio") return words("Try next: decide the way first, then go there in one straight move.");

@@ -24,6 +24,7 @@ constexpr double kSnipDeepest = 0.040;                // m on from the hover, fe
 constexpr double kSlowNear = 0.7;                     // of the approach speed, once something is felt
 constexpr double kPressedIn = 0.001;  // m under the place, where the tips are seen to press on the gauze
 constexpr double kGivesWay = 0.006;   // m, seen, that it gives way: it is not pressed further
+constexpr double kFollowed = 0.015;   // m, seen, as far as closing blades follow it
 constexpr double kFelt = 0.12;        // N
 constexpr double kBladesRoll = 3;     // rad/s of a turn, before speed_factor
 constexpr double kMostFollowed = 0.5, kMostLead = 0.4;  // rad at which the eyes lead; that fingers go ahead of a tool
@@ -118,8 +119,12 @@ void SnipJob::press(const Percept& percept, const HandSenses& senses, double dt_
   if ((senses.force_n() >= goal_n_ && at_gauze) || gives_way || deep) enter(Step::kClose);
 }
 
-void SnipJob::close(const Percept&, double dt_s, HandIntent& intent) {
+/// The blades close while the hand goes on pressing: gauze that hangs loose backs away from them.
+void SnipJob::close(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent) {
   set_blades(kBladesShut, dt_s, intent);
+  const bool far = percept.target_normal_T.dot(lay_T_ - percept.tip_T) > kFollowed;
+  if (senses.force_n() < goal_n_ && !far && intent.jaw_opening_m > kBladesShut)
+    intent.X_TI.p -= skill_.approach_speed_mps * dt_s * percept.target_normal_T;
   if (intent.jaw_opening_m > kBladesShut) in_step_s_ = 0;
   if (in_step_s_ > kBladesShutFor) enter(Step::kNext);
 }
@@ -138,7 +143,7 @@ void SnipJob::update(const Percept& percept, const HandSenses& senses, double dt
     case Step::kPress:
       return press(percept, senses, dt_s, intent);
     case Step::kClose:
-      return close(percept, dt_s, intent);
+      return close(percept, senses, dt_s, intent);
     case Step::kNext:  // out of the cut with closed blades; which place is the next is seen by then
       if (percept.target_normal_T.dot(way_over(percept, kOutOver)) > 0)
         intent.X_TI.p += kOutSpeed / skill_.speed_factor * dt_s * percept.target_normal_T;

@@ -30,7 +30,7 @@ class SnipJob : public HandWork {
   void follow(const Percept& percept, double dt_s, HandIntent& intent) const;
   void look(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
   void press(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent);
-  void close(const Percept& percept, double dt_s, HandIntent& intent);
+  void close(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent);
   void set_blades(double to_m, double dt_s, HandIntent& intent) const;
   static Vec3 way_over(const Percept& percept, double over_m);
   static Vec3 aside_of(const Percept& percept);

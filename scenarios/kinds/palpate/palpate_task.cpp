@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenarios/kinds/palpate/palpate_layout.h"
 #include "tissue/tissue_frame.h"
@@ -32,6 +33,7 @@ PalpateTask::PalpateTask(const Exercise& exercise, const ExerciseLevel& level, c
   columns_ = cells(2 * half_x_m_, rules_.searched_cell_m);
   rows_ = cells(2 * half_y_m_, rules_.searched_cell_m);
   searched_.assign(static_cast<std::size_t>(columns_ * rows_), false);
+  pressed_ = searched_;
 }
 
 void PalpateTask::follow_search(const Vec3& place_T, double force_n) {
@@ -40,7 +42,22 @@ void PalpateTask::follow_search(const Vec3& place_T, double force_n) {
   if (std::abs(off.x()) >= half_x_m_ || std::abs(off.y()) >= half_y_m_) return;
   const int column = static_cast<int>((off.x() + half_x_m_) / (2 * half_x_m_) * columns_);
   const int row = static_cast<int>((off.y() + half_y_m_) / (2 * half_y_m_) * rows_);
-  searched_[static_cast<std::size_t>(row * columns_ + column)] = true;
+  const int cell = row * columns_ + column;
+  searched_[static_cast<std::size_t>(cell)] = true;
+  if (force_n > press_n_) {
+    press_n_ = force_n;
+    press_cell_ = cell;
+  }
+}
+
+/// The tip leaves the tissue, or the search ends: the first press of a cell is judged by the most of its force.
+void PalpateTask::end_press(EventLog& log) {
+  const double force_n = std::exchange(press_n_, 0);
+  if (force_n <= 0 || pressed_[static_cast<std::size_t>(press_cell_)]) return;
+  pressed_[static_cast<std::size_t>(press_cell_)] = true;
+  const bool well = force_n >= rules_.press_low_n && force_n <= rules_.press_high_n;
+  log.add(event_type::kPlacePressed, well ? Severity::kInfo : Severity::kMinor, press_cell_,
+          1 / static_cast<double>(pressed_.size()), "1");
 }
 
 double PalpateTask::searched_share() const {
@@ -49,6 +66,7 @@ double PalpateTask::searched_share() const {
 }
 
 void PalpateTask::end(EventLog& log) {
+  end_press(log);
   ended_ = true;
   log.add(event_type::kSearchEnded, Severity::kInfo, -1, searched_share(), "1");
 }
@@ -84,6 +102,7 @@ void PalpateTask::update(const TaskInput& input, EventLog& log) {
   const bool moved = input.tissue && input.tissue->touched_rest_T;
   const Vec3 place = touching_ ? (moved ? *input.tissue->touched_rest_T : state.contact_point_T) : state.X_TI.p;
   if (touching_ && !frozen(state)) follow_search(place, state.F_I_T.force.norm());
+  if (!touching_) end_press(log);
   const bool pinched = state.grip_force_n >= rules_.mark_n;
   let_go_ = let_go_ || state.grip_force_n < kLetGoShare * rules_.mark_n;
   const bool wanted = pinched && let_go_ && (touching_ || in_start_);

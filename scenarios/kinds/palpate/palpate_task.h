@@ -2,7 +2,8 @@
 //
 // There are as many marks as nodules; the last one ends the search, and so does a pinch in the start ball. A mark is a
 // hit within a nodule's radius and some more of it, along the surface; each nodule is found once. Events, value in
-// brackets: NODULE_FOUND [m off it], FALSE_MARK [m off the nearest that is not found], SEARCH_ENDED [share of the
+// brackets: PLACE_PRESSED [share of the region] for the first press of each cell, minor where its force was not the
+// wanted one, NODULE_FOUND [m off it], FALSE_MARK [m off the nearest that is not found], SEARCH_ENDED [share of the
 // region that was pressed]. Where the organ gives way, places are compared at rest. Frame T, SI units. Deterministic.
 // Thread: the tissue task's.
 #pragma once
@@ -26,6 +27,7 @@ class PalpateTask final : public ExerciseTask {
 
  private:
   void follow_search(const Vec3& place_T, double force_n);
+  void end_press(EventLog& log);
   void set_mark(const Vec3& place_T, EventLog& log);
   void end(EventLog& log);
   double searched_share() const;
@@ -38,6 +40,9 @@ class PalpateTask final : public ExerciseTask {
   double start_sphere_m_, half_x_m_, half_y_m_;
   std::vector<HiddenNodule> nodules_;  ///< without decoys
   std::vector<bool> found_, searched_;
+  std::vector<bool> pressed_;  ///< cells whose first press was judged
+  double press_n_ = 0;         ///< most force of the press that lasts ...
+  int press_cell_ = 0;         ///< ... and where it was
   int columns_ = 1, rows_ = 1;
   HoldTimer hold_;
   Vec3 hold_from_T_ = Vec3::Zero();

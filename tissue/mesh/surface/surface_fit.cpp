@@ -45,8 +45,8 @@ double sharpest(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// Of a mesh of as many equilateral triangles.
 double even_edge_m(const TriangleSurface& surface) {
-  constexpr double kEquilateral = 0.4330127018922193;  // area over edge^2
-  return std::sqrt(surface_area_m2(surface) / kEquilateral /
+  constexpr double kEvenArea = 0.4330127018922193;  // area over edge^2
+  return std::sqrt(surface_area_m2(surface) / kEvenArea /
                    static_cast<double>(std::max<std::size_t>(surface.triangles.size(), 1)));
 }
 

@@ -121,6 +121,39 @@ TEST_F(PalpateTest, AMarkOverEachEndsItAndAllAreFound) {
   EXPECT_LT(*metric("searched_share"), 0.2) << "three cells of 25";
 }
 
+TEST_F(PalpateTest, TheFirstPressOfEachCellIsJudgedAtItsMost) {
+  const auto one = [&](const Vec3& place, std::initializer_list<double> forces) {
+    for (const double force_n : forces) {
+      press(place, force_n);
+      feed(0.05);
+    }
+    lift();
+    feed(0.05);
+  };
+  const double cell = 1 / 25.0;
+  EXPECT_FALSE(metric("pressed_well_share")) << "nothing was pressed";
+  one({0, 0, 0}, {0.1, 0.15});
+  EXPECT_FALSE(metric("pressed_well_share")) << "brushed";
+  one({0, 0, 0}, {0.3, 1.0, 0.5});
+  EXPECT_NEAR(*metric("pressed_well_share"), cell, 1e-12);
+  one({0.009, 0, 0}, {0.3, 1.3, 1.0});
+  EXPECT_EQ(last(event_type::kPlacePressed).severity, Severity::kMinor) << "too hard for a moment";
+  one({0.009, 0, 0}, {1.0});
+  EXPECT_NEAR(*metric("pressed_well_share"), cell, 1e-12) << "pressing it again well mends nothing";
+  one({0, 0.009, 0}, {0.5});
+  EXPECT_NEAR(*metric("pressed_well_share"), cell, 1e-12) << "too light";
+  one({0.030, 0, 0}, {1.0});
+  EXPECT_NEAR(*metric("pressed_well_share"), cell, 1e-12) << "beside the region";
+  press({-0.018, -0.018, 0}, 1);
+  feed(0.05);
+  press({0, -0.018, 0}, 0.9);
+  feed(0.05);
+  lift();
+  feed(0.05);
+  EXPECT_NEAR(*metric("pressed_well_share"), 2 * cell, 1e-12) << "drawn along it is one press, where it was hardest";
+  EXPECT_EQ(count(event_type::kPlacePressed), 4);
+}
+
 TEST_F(PalpateTest, BesideTheMarginIsFalse) {
   const double reach =
       own_rules<PalpateRules>(exercise_).nodules[0].radius_m + own_rules<PalpateRules>(exercise_).hit_m;

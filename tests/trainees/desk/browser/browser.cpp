@@ -96,6 +96,30 @@ struct Browser::Driver {
   std::unique_ptr<httplib::Client> client;
 
   explicit Driver(const fs::path& folder) {
+    // The driver takes a port that is free for IPv4 and gives up where another process has it for IPv6.
+    std::string said;
+    int port = 0;
+    for (int attempt = 0; port == 0 && attempt < 5; ++attempt) {
+      end();
+      said.clear();
+      port = begin(folder, said);
+    }
+    if (port == 0) {
+      end();
+      fail(
+          "no browser: chromedriver did not begin. Install Debian's chromium and chromium-driver "
+          "(cmake/debian-packages.txt; ./check does it). It said: " +
+          said);
+    }
+    client = std::make_unique<httplib::Client>("127.0.0.1", port);
+    client->set_read_timeout(kLimit);
+    client->set_keep_alive(true);
+    client->set_tcp_nodelay(true);
+  }
+  ~Driver() { end(); }
+
+  /// Begins the process; its port, or 0 where it ended before it had one, with all that it `said`.
+  int begin(const fs::path& folder, std::string& said) {
     int ends[2];
     if (::pipe(ends) != 0) fail("no pipe");
     process = ::fork();
@@ -111,24 +135,13 @@ struct Browser::Driver {
       ::_exit(127);
     }
     ::close(ends[1]);
-    const int port = port_said(ends[0]);
+    const int port = port_said(ends[0], said);
     ::close(ends[0]);
-    if (port == 0) {
-      end();
-      fail(
-          "no browser: chromedriver did not begin. Install Debian's chromium and chromium-driver "
-          "(cmake/debian-packages.txt; ./check does it).");
-    }
-    client = std::make_unique<httplib::Client>("127.0.0.1", port);
-    client->set_read_timeout(kLimit);
-    client->set_keep_alive(true);
-    client->set_tcp_nodelay(true);
+    return port;
   }
-  ~Driver() { end(); }
 
   /// "ChromeDriver was started successfully on port 40123."
-  static int port_said(int from) {
-    std::string said;
+  static int port_said(int from, std::string& said) {
     char piece[512];
     for (ssize_t count = 0; (count = ::read(from, piece, sizeof piece)) > 0;) {
       said.append(piece, static_cast<std::size_t>(count));
