@@ -117,6 +117,7 @@ struct NeedleSight {
 struct SheetCutSeen {
   std::int32_t sheet = 0;  ///< index in the scene
   Vec3 from_rest_T = Vec3::Zero(), to_rest_T = Vec3::Zero();
+  bool from_rim = false, to_rim = false;  ///< the sheet itself ended there, not the blades: its edge, or an older cut
 };
 
 struct WoundSeen {

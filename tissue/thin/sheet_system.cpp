@@ -419,6 +419,7 @@ std::optional<SheetCutSeen> SheetSystem::cut_between(std::size_t sheet, const Po
     }
   }
   if (most <= least) return std::nullopt;
+  cut.from_rim = least > -half_m, cut.to_rim = most < half_m;
   const Vec3 way = (cut.to_rest_T - cut.from_rest_T).normalized();
   cut.from_rest_T = through_rim(cut.from_rest_T, -way);
   cut.to_rest_T = through_rim(cut.to_rest_T, way);

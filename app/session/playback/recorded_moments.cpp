@@ -38,8 +38,9 @@ DirectorStatus between(const DirectorStatus& a, const DirectorStatus& b, double 
   DirectorStatus out = a;
   if (a.phase == Phase::kRun) out.run_time_s += later_s;
   if (!runs_on(a, b)) return out;
-  for (const auto number : {&DirectorStatus::hold_progress, &DirectorStatus::position_error_m,
-                            &DirectorStatus::angle_error_rad, &DirectorStatus::peak_force_n})
+  for (const auto number :
+       {&DirectorStatus::hold_progress, &DirectorStatus::position_error_m, &DirectorStatus::angle_error_rad,
+        &DirectorStatus::peak_force_n, &DirectorStatus::exposure, &DirectorStatus::horizon_rad})
     out.*number = std::lerp(a.*number, b.*number, share);
   out.demand.centre_T += share * (b.demand.centre_T - a.demand.centre_T);
   out.demand.object.X_TO = between(a.demand.object.X_TO, b.demand.object.X_TO, share);

@@ -224,8 +224,22 @@ void walk_suture(Words& words, Suture& s) {
   words.rounded(s.pull_n);
 }
 
+/// What single kinds of exercise show.
+template <typename Words, typename Status>
+void walk_shown(Words& words, Status& s) {
+  for (auto* number : {&s.exposure, &s.horizon_rad}) words.rounded(*number);
+  words.whole(s.shown_symbol);
+  words.count(s.mark_count, s.marks_T.size());
+  for (int i = 0; i < s.mark_count; ++i) rounded(words, s.marks_T[static_cast<std::size_t>(i)]);
+}
+
+bool shows_more(const DirectorStatus& s) {
+  return s.exposure != 0 || s.horizon_rad != 0 || s.shown_symbol >= 0 || s.mark_count > 0;
+}
+
 /// What has been done to an organ follows, where something has, behind it clips and drops, where there are some, then
-/// the bed, where it is hurt, and last what is stitched; each also where something behind it follows.
+/// the bed, where it is hurt, then what is stitched, and last what single kinds show; each also where something behind
+/// it follows.
 template <typename Words, typename Keyframe>
 void walk(Words& words, Keyframe& k) {
   walk_instrument(words, k.instrument);
@@ -240,13 +254,15 @@ void walk(Words& words, Keyframe& k) {
 std::vector<std::uint64_t> words_of(const TissueKeyframe& keyframe) {
   WordsOut words;
   walk(words, keyframe);
-  const bool suture = keyframe.tissue.suture != SutureState{};
+  const bool shown = shows_more(keyframe.status);
+  const bool suture = shown || keyframe.tissue.suture != SutureState{};
   const bool bed = suture || keyframe.tissue.surgery.bed_hurt != 0;
   const bool more = bed || keyframe.tissue.clip_count > 0 || keyframe.tissue.drop_count > 0;
   if (more || keyframe.tissue.surgery != SurgeryState{}) walk_surgery(words, keyframe.tissue.surgery);
   if (more) walk_clips_and_drops(words, keyframe.tissue);
   if (bed) walk_bed(words, keyframe.tissue.surgery);
   if (suture) walk_suture(words, keyframe.tissue.suture);
+  if (shown) walk_shown(words, keyframe.status);
   return std::move(words.words);
 }
 
@@ -257,6 +273,7 @@ void read_words(std::span<const std::uint64_t> words, TissueKeyframe& keyframe) 
   if (!in.done()) walk_clips_and_drops(in, keyframe.tissue);
   if (!in.done()) walk_bed(in, keyframe.tissue.surgery);
   if (!in.done()) walk_suture(in, keyframe.tissue.suture);
+  if (!in.done()) walk_shown(in, keyframe.status);
   if (!in.done()) throw InputError("words of a keyframe are left over");
 }
 

@@ -37,7 +37,8 @@ bool runs_on(const Demand& a, const Demand& b) {
 bool runs_on(const DirectorStatus& a, const DirectorStatus& b) {
   const auto steps = [](const DirectorStatus& s) {
     return std::tie(s.phase, s.cue, s.force_shown, s.target_index, s.targets_done, s.wrong_places, s.excess_forces,
-                    s.timeouts, s.warning, s.demand.oriented, s.demand.object.slipping, s.demand.foam_count);
+                    s.timeouts, s.warning, s.shown_symbol, s.mark_count, s.demand.oriented, s.demand.object.slipping,
+                    s.demand.foam_count);
   };
   return steps(a) == steps(b) && a.done == b.done && a.message == b.message && a.hint == b.hint &&
          runs_on(a.demand, b.demand);

@@ -8,6 +8,7 @@ namespace trocar {
 namespace {
 
 constexpr double kFrays = 0.0006;    // m beyond a cut's ends, over which the threads part (a choice)
+constexpr double kMet = 0.003;       // m between two cuts' ends that have met: more than half an edge of the mesh
 constexpr double kNear = 0.4;        // of R: a cut further from the line than that does not come past it
 constexpr double kBarApart = 0.001;  // m
 constexpr int kLastBars = 1;        // the last of them, where a cut along the closed line meets the way in all the same
@@ -58,20 +59,7 @@ bool CutLine::on_way_in(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
          std::abs((to - from).normalized().dot(out)) > kAlongWay;
 }
 
-CutLine::Added CutLine::add(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  Added added;
-  const double length = (to - from).norm();
-  if (!(length > 0)) return added;
-  const Eigen::Vector2d way = (to - from) / length, a = from - kFrays * way, b = to + kFrays * way;
-  const Eigen::Vector2d out = direction(line_.from_rad);
-  for (int bar = 0; bar < bars_; ++bar) {  // from the edge on
-    const double depth = radius(0) + line_.way_in_m * (1 - (bar + 0.5) / bars_);
-    const double before = a.dot(out) - depth, behind = b.dot(out) - depth;
-    if ((before < 0) == (behind < 0)) continue;
-    const Eigen::Vector2d there = a + before / (before - behind) * (b - a);
-    if (std::abs(cross(out, there)) < kBarHalf) passed_[static_cast<std::size_t>(bar)] = true;
-  }
-  if (on_way_in(from, to)) return added;
+void CutLine::cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added) {
   for (int ray = 0; ray < kRays; ++ray) {
     const double turn = (ray + 0.5) * kTurn / kRays, R = radius(turn);
     const Eigen::Vector2d along = direction(line_.from_rad + line_.sense * turn);
@@ -86,6 +74,37 @@ CutLine::Added CutLine::add(const Eigen::Vector2d& from, const Eigen::Vector2d& 
     added.area_share += (r2_off - r2_off_[n]) / 2 * (kTurn / kRays) / area_m2_;
     r2_off_[n] = r2_off;
   }
+}
+
+void CutLine::meet(const Eigen::Vector2d& end, Added& added) {
+  double least = kMet;
+  const Eigen::Vector2d* nearest = nullptr;
+  for (int n = 0; n < end_count_; ++n) {
+    const Eigen::Vector2d& other = ends_[static_cast<std::size_t>(n)];
+    if (const double apart = (other - end).norm(); apart < least) least = apart, nearest = &other;
+  }
+  if (nearest) cross_rays(*nearest, end, added);
+}
+
+CutLine::Added CutLine::add(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool from_rim, bool to_rim) {
+  Added added;
+  const double length = (to - from).norm();
+  if (!(length > 0)) return added;
+  const Eigen::Vector2d way = (to - from) / length, a = from - kFrays * way, b = to + kFrays * way;
+  const Eigen::Vector2d out = direction(line_.from_rad);
+  for (int bar = 0; bar < bars_; ++bar) {  // from the edge on
+    const double depth = radius(0) + line_.way_in_m * (1 - (bar + 0.5) / bars_);
+    const double before = a.dot(out) - depth, behind = b.dot(out) - depth;
+    if ((before < 0) == (behind < 0)) continue;
+    const Eigen::Vector2d there = a + before / (before - behind) * (b - a);
+    if (std::abs(cross(out, there)) < kBarHalf) passed_[static_cast<std::size_t>(bar)] = true;
+  }
+  if (on_way_in(from, to)) return added;
+  cross_rays(a, b, added);
+  if (from_rim) meet(from, added);
+  if (to_rim) meet(to, added);
+  for (const Eigen::Vector2d& end : {from, to})
+    if (end_count_ < kMostEnds) ends_[static_cast<std::size_t>(end_count_++)] = end;
   for (int piece = 0; piece < kPieces; ++piece) {
     const double beside = off(from + (piece + 0.5) / kPieces * (to - from));
     added.off_m = std::max(added.off_m, beside);

@@ -5,6 +5,8 @@
 // nothing. The area between cut and line is that of the sectors between r and R, (r^2 - R^2) / 2 each, exact for a cut
 // that keeps its r within a sector. The way in is told by bars across it; a cut outside the closed line that lies along
 // it is never off the line. A cut reaches a little beyond its ends: threads that stay between two of them hold nothing.
+// Where gauze itself ends at a cut's end, and an older cut ended near there, the two have met: the mesh parts along its
+// edges, up to half an edge from where the blades were.
 //
 // Frame G (gauze_rules.h), m. Deterministic. Thread: one; adding a cut does not allocate.
 #pragma once
@@ -16,7 +18,7 @@
 
 namespace trocar {
 
-inline constexpr int kRays = 120, kMostBars = 40;
+inline constexpr int kRays = 120, kMostBars = 40, kMostEnds = 256;
 
 /// A place on the line and its direction.
 struct LinePlace {
@@ -32,7 +34,7 @@ class CutLine {
   struct Added {
     double area_share = 0, outside_share = 0, off_m = 0;
   };
-  Added add(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  Added add(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool from_rim = false, bool to_rim = false);
 
   double way_in_m() const { return line_.way_in_m; }
   double round_m() const { return round_m_; }
@@ -45,6 +47,9 @@ class CutLine {
   bool closed() const { return uncut_from_m() >= way_in_m() + round_m(); }
 
  private:
+  void cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added);
+  /// From an older cut's end that is near this one, where gauze ends.
+  void meet(const Eigen::Vector2d& end, Added& added);
   double radius(double turn_rad) const;
   Eigen::Vector2d on_line(double turn_rad) const;
   bool on_way_in(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
@@ -57,6 +62,8 @@ class CutLine {
   std::array<double, kRays> r2_off_{};  ///< largest |r^2 - R^2| of the cuts across it
   std::array<bool, kRays> crossed_{};
   std::array<bool, kMostBars> passed_{};
+  std::array<Eigen::Vector2d, kMostEnds> ends_{};  ///< of the cuts off the way in, the first of them
+  int end_count_ = 0;
 };
 
 }  // namespace trocar

@@ -62,7 +62,7 @@ void GauzeTask::ask_next(EventLog& log) {
 
 void GauzeTask::judge(const SheetCutSeen& cut, EventLog& log) {
   const auto on_gauze = [&](const Vec3& place_T) -> Eigen::Vector2d { return (place_T - board_.middle_T).head<2>(); };
-  const CutLine::Added added = line_.add(on_gauze(cut.from_rest_T), on_gauze(cut.to_rest_T));
+  const CutLine::Added added = line_.add(on_gauze(cut.from_rest_T), on_gauze(cut.to_rest_T), cut.from_rim, cut.to_rim);
   log.add(event_type::kSnip, Severity::kInfo, asked_, added.area_share);
   if (added.outside_share < kLeastOutside) return;
   log.add(event_type::kOffLine, Severity::kMinor, asked_, added.outside_share);

@@ -234,6 +234,24 @@ TEST(OrganFileSets, AFolderAndAZipOfMasksAreOneScene) {
   EXPECT_CONTAINS(trial.refusal(), "holds no file of \"kidney\"; it holds brain, heart, liver, spleen");
 }
 
+TEST(OrganFileSets, WhereMasksOverlapTheSmallerHasThePlace) {
+  std::map<std::string, std::string> files;
+  Trial trial("s");
+  write_masks(trial.folder.path(), files);
+  const Json apart = trial.imported();
+  trial.folder.write("s/liver.nii.gz", nifti(halves(1, 1)));
+  const Json over = trial.imported();
+  EXPECT_EQ(over["organs"].size(), 2U);
+  EXPECT_EQ(over["contacts"], apart["contacts"]) << "they share a border and do not cross";
+  for (std::size_t n = 0; n < 2; ++n) EXPECT_EQ(over["organs"][n]["bbox_m"], apart["organs"][n]["bbox_m"]);
+  trial.options.name = "liver";
+  const double alone_m = trial.imported()["bbox_m"][1][2].get<double>();
+  EXPECT_GT(alone_m, apart["organs"][0]["bbox_m"][1][2].get<double>() + 0.02) << "by itself it is whole";
+  trial.options.name.clear();
+  trial.folder.write("s/spleen.nii.gz", nifti(halves(1, 1)));
+  EXPECT_CONTAINS(trial.refusal(), "100 % of it is \"spleen\" too");
+}
+
 TEST(OrganFileSets, MasksCutOutOfOneGridAreLaidOnIt) {
   Trial trial("s");
   std::map<std::string, std::string> files;

@@ -56,6 +56,10 @@ void expect_of_run(const SessionView& was, const RunMoment& is) {
   EXPECT_LT((s.demand.centre_T - t.demand.centre_T).norm(), kThing);
   EXPECT_EQ(s.demand.band, t.demand.band);
   EXPECT_NEAR(s.hold_progress, t.hold_progress, 0.06);
+  EXPECT_NEAR(s.exposure, t.exposure, 0.06);
+  EXPECT_NEAR(s.horizon_rad, t.horizon_rad, 0.06);
+  EXPECT_EQ(s.shown_symbol, t.shown_symbol);
+  EXPECT_EQ(s.mark_count, t.mark_count);
   const TissueFrame &f = *was.tissue, &g = is.tissue;
   EXPECT_EQ(f.grip, g.grip);
   ASSERT_EQ(f.object_count, g.object_count);
@@ -99,6 +103,13 @@ void compare(const Scene& scene) {
 TEST(KeyframesAskedFor, GiveTheMomentsOfATouch) { compare(short_scene()); }
 TEST(KeyframesAskedFor, GiveTheMomentsOfBlocksOnABoard) {
   compare(build_scene(grasp_setup(), find_assets(), {"simulated", 1000, 16}));
+}
+
+TEST(KeyframesAskedFor, GiveTheMomentsOfAScope) {
+  AttemptSetup setup = short_setup();
+  setup.exercise = find_exercise("camera-navigation", find_assets().exercises);
+  setup.organ = "none";
+  compare(build_scene(setup, find_assets(), {"simulated", 1000, 16}));
 }
 
 TEST(KeyframesAskedFor, AreNotMadeWhereNothingDeforms) {

@@ -122,6 +122,11 @@ TEST(TissueCodec, EveryFieldOfAMomentComesBack) {
   k.status.demand.foam_count = 2;
   k.status.demand.foam[1] = {150, 0.5, 1.5};
   k.status.grip = {0.01, 333};
+  k.status.exposure = 0.75;
+  k.status.horizon_rad = -0.125;
+  k.status.shown_symbol = 2;
+  k.status.mark_count = 2;
+  k.status.marks_T[1] = Vec3(0.25, -0.125, 0.5);
   k.tissue.object_count = 2;
   k.tissue.object[1].X_TO = {k.instrument.R_TI, Vec3(0.01, 0.02, 0.03)};
   k.tissue.object[1].crushed = true;
@@ -157,6 +162,11 @@ TEST(TissueCodec, EveryFieldOfAMomentComesBack) {
   EXPECT_LT((is.status.demand.object.X_TO.p - k.status.demand.object.X_TO.p).norm(), 1e-7);
   EXPECT_EQ(is.status.demand.foam[1].high_n, 1.5);
   EXPECT_EQ(is.status.grip.stiffness_n_per_m, 333);
+  EXPECT_EQ(is.status.exposure, 0.75);
+  EXPECT_EQ(is.status.horizon_rad, -0.125);
+  EXPECT_EQ(is.status.shown_symbol, 2);
+  ASSERT_EQ(is.status.mark_count, 2);
+  EXPECT_EQ(is.status.marks_T[1], k.status.marks_T[1]);
   EXPECT_EQ(is.tissue.object_count, 2);
   EXPECT_LT((is.tissue.object[1].X_TO.R - k.instrument.R_TI).norm(), 1e-6);
   EXPECT_TRUE(is.tissue.object[1].crushed);
@@ -179,6 +189,8 @@ TEST(TissueCodec, EveryFieldOfAMomentComesBack) {
   EXPECT_EQ(is.instrument.contact_point_T, k.instrument.contact_point_T);
   EXPECT_EQ(TissueDecoder(file.track).at(2)->tissue.object_count, 0);
   EXPECT_EQ(TissueDecoder(file.track).at(2)->tissue.clip_count, 0);
+  EXPECT_EQ(TissueDecoder(file.track).at(2)->status.shown_symbol, -1);
+  EXPECT_EQ(TissueDecoder(file.track).at(2)->status.mark_count, 0);
 }
 
 TEST(TissueCodec, ASeekGivesWhatPlayingFromTheStartGives) {

@@ -56,6 +56,25 @@ TEST(CutLine, AWholeCutClosesItAndOnlyAWholeOne) {
   EXPECT_TRUE(line.closed());
 }
 
+TEST(CutLine, CutsMeetWhereTheGauzeBetweenThemHasParted) {
+  const auto at = [](double arc_m) -> Eigen::Vector2d {
+    return 0.020 * Eigen::Vector2d(std::cos(arc_m / 0.020 - kPi / 2), std::sin(arc_m / 0.020 - kPi / 2));
+  };
+  const auto left_over = [&](double gap_m, bool rim) {
+    CutLine line(kCircle, kBand);
+    cut_in(line);
+    const double met = 0.060;
+    cut_round(line, 0.020, 0, (met - gap_m) / 0.020);
+    line.add(at(met), at(met + 0.004), rim, false);
+    cut_round(line, 0.020, (met + 0.004) / 0.020, 2 * kPi);
+    return !line.closed();
+  };
+  EXPECT_FALSE(left_over(0.0010, false)) << "threads";
+  EXPECT_TRUE(left_over(0.0022, false)) << "the blades ended there, the gauze goes on";
+  EXPECT_FALSE(left_over(0.0022, true)) << "the gauze ended there";
+  EXPECT_TRUE(left_over(0.0045, true)) << "too far for one gap";
+}
+
 TEST(CutLine, TheAreaIsThatBetweenTwoCircles) {
   for (const double radius : {0.019, 0.0195, 0.021, 0.022}) {
     CutLine line(kCircle, kBand);
