@@ -59,7 +59,7 @@ bool CutLine::on_way_in(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
          std::abs((to - from).normalized().dot(out)) > kAlongWay;
 }
 
-void CutLine::cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added) {
+void CutLine::cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added, bool only_uncut) {
   for (int ray = 0; ray < kRays; ++ray) {
     const double turn = (ray + 0.5) * kTurn / kRays, R = radius(turn);
     const Eigen::Vector2d along = direction(line_.from_rad + line_.sense * turn);
@@ -68,6 +68,7 @@ void CutLine::cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Add
     const double r = along.dot(a + before / (before - behind) * (b - a));
     if (std::abs(r - R) > kNear * R) continue;
     const auto n = static_cast<std::size_t>(ray);
+    if (only_uncut && crossed_[n]) continue;
     crossed_[n] = true;
     const double r2_off = std::abs(r * r - R * R);
     if (r2_off <= r2_off_[n]) continue;
@@ -77,13 +78,10 @@ void CutLine::cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Add
 }
 
 void CutLine::meet(const Eigen::Vector2d& end, Added& added) {
-  double least = kMet;
-  const Eigen::Vector2d* nearest = nullptr;
   for (int n = 0; n < end_count_; ++n) {
     const Eigen::Vector2d& other = ends_[static_cast<std::size_t>(n)];
-    if (const double apart = (other - end).norm(); apart < least) least = apart, nearest = &other;
+    if ((other - end).norm() < kMet) cross_rays(other, end, added, true);
   }
-  if (nearest) cross_rays(*nearest, end, added);
 }
 
 CutLine::Added CutLine::add(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool from_rim, bool to_rim) {

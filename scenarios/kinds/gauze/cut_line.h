@@ -47,8 +47,8 @@ class CutLine {
   bool closed() const { return uncut_from_m() >= way_in_m() + round_m(); }
 
  private:
-  void cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added);
-  /// From an older cut's end that is near this one, where gauze ends.
+  void cross_rays(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Added& added, bool only_uncut = false);
+  /// From older cuts' ends that are near this one, where gauze ends.
   void meet(const Eigen::Vector2d& end, Added& added);
   double radius(double turn_rad) const;
   Eigen::Vector2d on_line(double turn_rad) const;

@@ -73,6 +73,15 @@ TEST(CutLine, CutsMeetWhereTheGauzeBetweenThemHasParted) {
   EXPECT_TRUE(left_over(0.0022, false)) << "the blades ended there, the gauze goes on";
   EXPECT_FALSE(left_over(0.0022, true)) << "the gauze ended there";
   EXPECT_TRUE(left_over(0.0045, true)) << "too far for one gap";
+
+  CutLine line(kCircle, kBand);  // a cut that does not reach the older one, and one beside it that finds the gap
+  cut_in(line);
+  cut_round(line, 0.020, 0, 0.058 / 0.020);
+  line.add(at(0.0602), at(0.0642));
+  cut_round(line, 0.020, 0.0642 / 0.020, 2 * kPi);
+  EXPECT_FALSE(line.closed());
+  line.add(at(0.0604), at(0.0614), true, true);
+  EXPECT_TRUE(line.closed());
 }
 
 TEST(CutLine, TheAreaIsThatBetweenTwoCircles) {
