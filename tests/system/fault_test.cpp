@@ -84,13 +84,23 @@ TEST_F(Faults, AClockThatALibrarySlowsDownVoidsALiveRun) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer wants to be loaded first itself";
 #endif
+  // A host that takes ticks away voids a live attempt as well: then another one is asked.
+  const auto played = [](const Launch& live) {
+    Json json;
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      const Outcome outcome = run_program(live);
+      json = Json::parse(outcome.out, nullptr, false);
+      EXPECT_FALSE(json.is_discarded()) << outcome.err;
+      if (json.is_discarded() || json["integrity"].dump().find("ticks are missing") == std::string::npos) break;
+    }
+    return json;
+  };
   Launch live = launch(short_run({"--db", ":memory:", "--realtime"}));
-  const Outcome plain = run_program(live);
+  const Json honest = played(live);
   live.environment["LD_PRELOAD"] = TROCAR_SLOW_CLOCK;
-  const Outcome slow = run_program(live);
-  const Json honest = Json::parse(plain.out, nullptr, false), slowed = Json::parse(slow.out, nullptr, false);
-  ASSERT_FALSE(honest.is_discarded() || slowed.is_discarded()) << plain.err << slow.err;
-  EXPECT_NE(honest["status"], "void");
+  const Json slowed = played(live);
+  ASSERT_FALSE(honest.is_discarded() || slowed.is_discarded());
+  EXPECT_NE(honest["status"], "void") << honest["integrity"];
   EXPECT_EQ(slowed["status"], "void");
   EXPECT_TRUE(slowed["score"].is_null());
   EXPECT_EQ(slowed["integrity"], "void: the program's clock ran at 0.50 of the kernel's");
