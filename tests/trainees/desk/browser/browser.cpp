@@ -96,7 +96,7 @@ struct Browser::Driver {
   std::unique_ptr<httplib::Client> client;
 
   explicit Driver(const fs::path& folder) {
-    // The driver takes a port that is free for IPv4 and gives up where another process has it for IPv6.
+    // Now and then it ends at once, for want of a port as it seems: then it is begun again.
     std::string said;
     int port = 0;
     for (int attempt = 0; port == 0 && attempt < 5; ++attempt) {
