@@ -21,6 +21,7 @@ constexpr double kMayTouch = 0.002;        // m over the organ from which a node
 constexpr double kNoSheetDrag = 1e-6;      // N
 constexpr int kSearch = 12;                // vertices of the organ that a node may pass in a step
 constexpr double kTipsOver = 0.006;        // m beyond the tips, in which what they press on still is: their roundness
+constexpr double kCloses = 0.9;            // of how far they stood open, from which on blades are closing
 constexpr int kBiteSteps = 10;             // for which a press counts on: closing tips wander on what they press
 constexpr double kSpreadTolerance = 2e-6;  // m, of a sheet in a frame: it is seen, and pressed by soft touches alone
 constexpr double kRimStrip = 0.004;        // m: so narrow a strip between a cut and the rim parts with it (a choice)
@@ -367,20 +368,30 @@ void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool sc
   of.snipped = scissors && (of.bite_steps <= kBiteSteps || (of.snipped && stylus.jaw_opening_m < kOpenBlades));
   if (!scissors || of.bite_steps > kBiteSteps) {
     of.opened_m = 0;
+    of.between.reset();
     return;
   }
-  if (stylus.jaw_opening_m >= o.shut_opening_m) {
-    of.opened_m = std::max(of.opened_m, stylus.jaw_opening_m);
-    const double resist = of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * options_.snip_m / kOpenBlades;
-    if (stylus.jaw_opening_m < kOpenBlades) block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
+  const bool shut = stylus.jaw_opening_m < o.shut_opening_m;
+  if (!shut) of.opened_m = std::max(of.opened_m, stylus.jaw_opening_m);
+  if (of.opened_m < kOpenBlades) {
+    if (shut) of.opened_m = 0;
     return;
   }
-  const double opened = std::exchange(of.opened_m, 0.0);
-  if (opened < kOpenBlades) return;
-  // Where they press and not where they have sunk in to: along a shaft that leans that is millimetres aside.
-  const Pose X_TI{stylus.X_TI.R, stylus.X_TI.p + of.sunk_T};
-  const auto cut = cut_between(sheet, X_TI, std::min(options_.snip_m, opened) / 2);
-  if (cut) part_along(sheet, *cut);
+  // What lies between the blades as they begin to close: they may drag it, or be dragged, before they are shut.
+  if (stylus.jaw_opening_m > kCloses * of.opened_m)
+    of.between.reset();
+  else if (!of.between) {
+    // Where they press and not where they have sunk in to: along a shaft that leans that is millimetres aside.
+    const Pose X_TI{stylus.X_TI.R, stylus.X_TI.p + of.sunk_T};
+    of.between = cut_between(sheet, X_TI, std::min(options_.snip_m, of.opened_m) / 2);
+  }
+  if (shut) {
+    of.opened_m = 0;
+    if (const auto cut = std::exchange(of.between, std::nullopt)) part_along(sheet, *cut);
+    return;
+  }
+  const double resist = of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * options_.snip_m / kOpenBlades;
+  if (stylus.jaw_opening_m < kOpenBlades) block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
 }
 
 /// Where the blades' plane crosses the sheet between their tips, from end to end.

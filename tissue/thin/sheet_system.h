@@ -111,13 +111,14 @@ class SheetSystem {
     std::size_t lying = 0;                    ///< first spring of the last step that is of the organ beneath
     std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from there on
     // In a frame:
-    std::vector<Vec3> drawn_T = {};         ///< of each node, where it was as the sheet was spread
-    std::vector<SheetEdge> cut_edges = {};  ///< so far: one alone parts nothing until the next one meets it
-    double opened_m = 0, pressed_n = 0;     ///< the blades' since they closed last; of the tips, now
-    Vec3 sunk_T = Vec3::Zero();             ///< from the tips, that a contact lets sink in, up to what they press on
-    int bite_steps = 1000;                  ///< since they pressed enough
-    bool snipped = false;                   ///< blades have pressed on it and not been opened since
-    bool still = false;                     ///< nothing moves it: no step is made
+    std::vector<Vec3> drawn_T = {};            ///< of each node, where it was as the sheet was spread
+    std::vector<SheetEdge> cut_edges = {};     ///< so far: one alone parts nothing until the next one meets it
+    double opened_m = 0, pressed_n = 0;        ///< the blades' since they closed last; of the tips, now
+    Vec3 sunk_T = Vec3::Zero();                ///< from the tips, that a contact lets sink in, up to what they press on
+    int bite_steps = 1000;                     ///< since they pressed enough
+    std::optional<SheetCutSeen> between = {};  ///< blades that close
+    bool snipped = false;                      ///< blades have pressed on it and not been opened since
+    bool still = false;                        ///< nothing moves it: no step is made
   };
   void know(const SoftOrgan& organ);
   NodeShares shares_at(const SoftOrgan& organ, std::int32_t vertex) const;

@@ -42,12 +42,13 @@ class Gauze {
   }
 
   /// @param press_n of the tips on the gauze, at its middle, as the loop would tell it
-  void step(double opening_m, double press_n, double roll_rad = 0) {
+  /// @param aside_m of the instrument, along its blades, while the blade that bears stays where it was
+  void step(double opening_m, double press_n, double roll_rad = 0, double aside_m = 0) {
     state_.stylus.t_s += 0.01;
     state_.stylus.X_TI.R.col(2) = -Vec3::UnitZ();
     state_.stylus.X_TI.R.col(1) = Vec3(std::cos(roll_rad), std::sin(roll_rad), 0);
     state_.stylus.X_TI.R.col(0) = state_.stylus.X_TI.R.col(1).cross(state_.stylus.X_TI.R.col(2));
-    state_.stylus.X_TI.p = Vec3(0, 0, kHigh);
+    state_.stylus.X_TI.p = aside_m * state_.stylus.X_TI.R.col(1) + Vec3(0, 0, kHigh);
     state_.stylus.jaw_opening_m = opening_m;
     state_.contacts = {};
     if (press_n > 0) {
@@ -124,6 +125,17 @@ TEST(GauzeFrame, PressedTipsThatCloseCutASnipAlongTheirWay) {
   ASSERT_EQ(gauze.frame().sheet_cut_count, 2);
   const Vec3 turned = gauze.frame().sheet_cut[1].to_rest_T - gauze.frame().sheet_cut[1].from_rest_T;
   EXPECT_NEAR(std::abs(std::atan2(turned.y(), turned.x())), kRoll, 0.05);
+}
+
+TEST(GauzeFrame, TheCutIsWhereTheBladesBeganToClose) {
+  Gauze gauze;
+  for (int i = 0; i < 20; ++i) gauze.step(0, 0);
+  constexpr double kOpen = 0.008, kDrawn = 0.003;  // m: one blade sticks, the closing jaw draws the instrument to it
+  for (double o = 0.001; o <= kOpen; o += 0.001) gauze.step(o, 0.5);
+  for (double o = kOpen; o > -0.001; o -= 0.001) gauze.step(o, 0.5, 0, kDrawn * (1 - o / kOpen));
+  ASSERT_EQ(gauze.frame().sheet_cut_count, 1);
+  const SheetCutSeen& cut = gauze.frame().sheet_cut[0];
+  EXPECT_LT(((cut.from_rest_T + cut.to_rest_T) / 2 - gauze.pressed_T()).norm(), 8e-4) << "not 3 mm on";
 }
 
 TEST(GauzeFrame, TipsThatDoNotPressOrHardlyOpenCutNothing) {
