@@ -123,13 +123,17 @@ void limit_growth(std::vector<double>& sizes, const TriangleSurface& surface, do
   limit_size_growth(sizes, surface, neighbours_of(surface), growth);
 }
 
+double even_edge_m(const TriangleSurface& surface, std::size_t triangles) {
+  return std::sqrt(surface_area_m2(surface) / static_cast<double>(std::max<std::size_t>(triangles, 1)) / kEquilateral);
+}
+
 std::vector<double> edge_sizes(const TriangleSurface& surface, const EdgeSizeOptions& options) {
   if (surface.triangles.empty()) return {};
   const Neighbours neighbours = neighbours_of(surface);
   const double mean_edge = mean_edge_m(surface, neighbours), reach = options.smoothing_m / std::max(mean_edge, 1e-12);
   const int rounds = std::clamp(static_cast<int>(std::lround(1.5 * reach * reach)), 1, 40);
   std::vector<double> sizes = curvatures(surface, neighbours, rounds);
-  const double even = std::sqrt(surface_area_m2(surface) / options.triangles / kEquilateral);
+  const double even = even_edge_m(surface, static_cast<std::size_t>(options.triangles));
   const double reference = std::max(median(sizes), 1e-6);
   for (double& size : sizes)
     size =

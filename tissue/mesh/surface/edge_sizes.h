@@ -7,6 +7,8 @@
 // any.
 #pragma once
 
+#include <cstddef>
+
 #include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar {
@@ -18,6 +20,9 @@ struct EdgeSizeOptions {
   double longest = 1.35;
   double growth = 0.25;
 };
+
+/// Of a mesh of as large a surface of so many equilateral triangles.
+double even_edge_m(const TriangleSurface& surface, std::size_t triangles);
 
 /// One size a vertex, m.
 /// @param surface closed, dense against the wanted triangles

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "haptics/contact/segment_triangle.h"
+#include "tissue/mesh/surface/edge_sizes.h"
 #include "tissue/mesh/surface/nearest_surface.h"
 #include "tissue/mesh/surface/topology.h"
 
@@ -43,13 +44,6 @@ double sharpest(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({-u.dot(w), -u.dot(v), -v.dot(w)});
 }
 
-/// Of a mesh of as many equilateral triangles.
-double even_edge_m(const TriangleSurface& surface) {
-  constexpr double kEvenArea = 0.4330127018922193;  // area over edge^2
-  return std::sqrt(surface_area_m2(surface) / kEvenArea /
-                   static_cast<double>(std::max<std::size_t>(surface.triangles.size(), 1)));
-}
-
 /// Numbers 0..n by the group that each belongs to; those of a negative group in none.
 struct Groups {
   std::vector<std::size_t> begin;  ///< one a group, and the end
@@ -71,7 +65,7 @@ class Fit {
  public:
   /// @param per_triangle samples: of a denser target every second, third, ... vertex
   Fit(TriangleSurface& surface, const TriangleSurface& target, std::size_t per_triangle)
-      : surface_(surface), longest_edge_m_(kLongestEdge * even_edge_m(surface)) {
+      : surface_(surface), longest_edge_m_(kLongestEdge * even_edge_m(surface, surface.triangles.size())) {
     const std::vector<Vec3> normals = target.vertex_normals();
     const std::size_t stride =
         std::max<std::size_t>(1, target.vertices.size() / (per_triangle * surface.triangles.size() + 1));
