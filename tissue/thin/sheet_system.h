@@ -116,7 +116,7 @@ class SheetSystem {
     double opened_m = 0, pressed_n = 0;        ///< the blades' since they closed last; of the tips, now
     Vec3 sunk_T = Vec3::Zero();                ///< from the tips, that a contact lets sink in, up to what they press on
     int bite_steps = 1000;                     ///< since they pressed enough
-    std::optional<SheetCutSeen> between = {};  ///< blades that close
+    std::optional<SheetCutSeen> between = {};  ///< the blades, as they began to close
     bool snipped = false;                      ///< blades have pressed on it and not been opened since
     bool still = false;                        ///< nothing moves it: no step is made
   };
