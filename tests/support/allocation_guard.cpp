@@ -80,9 +80,13 @@ int posix_memalign(void** result, std::size_t alignment, std::size_t size) noexc
 
 namespace {
 
-void* counted_new(std::size_t size) {
+void* counted_malloc(std::size_t size) {
   note_allocation();
-  void* block = std::malloc(size == 0 ? 1 : size);
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* counted_new(std::size_t size) {
+  void* block = counted_malloc(size);
   if (block == nullptr) throw std::bad_alloc();
   return block;
 }
@@ -101,6 +105,8 @@ void* operator new(std::size_t size) { return counted_new(size); }
 void* operator new[](std::size_t size) { return counted_new(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return counted_aligned_new(size, alignment); }
 void* operator new[](std::size_t size, std::align_val_t alignment) { return counted_aligned_new(size, alignment); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted_malloc(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted_malloc(size); }
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete[](void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
