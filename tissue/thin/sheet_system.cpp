@@ -22,6 +22,8 @@ constexpr double kNoSheetDrag = 1e-6;      // N
 constexpr int kSearch = 12;                // vertices of the organ that a node may pass in a step
 constexpr double kTipsOver = 0.006;        // m beyond the tips, in which what they press on still is: their roundness
 constexpr double kCloses = 0.9;            // of how far they stood open, from which on blades are closing
+constexpr double kNarrows = 0.0002;        // m: blades that narrow by less stand still (a choice)
+constexpr int kStandSteps = 25;            // for so long (a choice)
 constexpr int kBiteSteps = 10;             // for which a press counts on: closing tips wander on what they press
 constexpr double kSpreadTolerance = 2e-6;  // m, of a sheet in a frame: it is seen, and pressed by soft touches alone
 constexpr double kRimStrip = 0.004;        // m: so narrow a strip between a cut and the rim parts with it (a choice)
@@ -363,35 +365,33 @@ void SheetSystem::feel_tips(std::size_t sheet, const SheetContacts& given) {
 void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool scissors) {
   Sheet& of = sheets_[sheet];
   const ScissorsOptions& o = options_.scissors;
+  const double now_m = stylus.jaw_opening_m;
   of.bite_steps = of.pressed_n >= options_.bite_n ? 0 : of.bite_steps + 1;
   // Blades that have cut it, and are not off it before they open, have closed on nothing else.
-  of.snipped = scissors && (of.bite_steps <= kBiteSteps || (of.snipped && stylus.jaw_opening_m < kOpenBlades));
+  of.snipped = scissors && (of.bite_steps <= kBiteSteps || (of.snipped && now_m < kOpenBlades));
   if (!scissors || of.bite_steps > kBiteSteps) {
-    of.opened_m = 0;
-    of.between.reset();
+    of.closing = {};
     return;
   }
-  const bool shut = stylus.jaw_opening_m < o.shut_opening_m;
-  if (!shut) of.opened_m = std::max(of.opened_m, stylus.jaw_opening_m);
-  if (of.opened_m < kOpenBlades) {
-    if (shut) of.opened_m = 0;
-    return;
-  }
+  Sheet::Closing& closing = of.closing;
+  // Blades that open again, or stand half closed a while, close from there.
+  closing.stood_steps = now_m < closing.narrowest_m - kNarrows ? 0 : closing.stood_steps + 1;
+  if (closing.stood_steps == 0) closing.narrowest_m = now_m;
+  const bool anew = now_m > closing.narrowest_m + kNarrows || closing.stood_steps > kStandSteps;
+  if (now_m >= kOpenBlades && anew) closing = {.from_m = now_m, .narrowest_m = now_m};
+  if (closing.from_m < kOpenBlades) return;
   // What lies between the blades as they begin to close: they may drag it, or be dragged, before they are shut.
-  if (stylus.jaw_opening_m > kCloses * of.opened_m)
-    of.between.reset();
-  else if (!of.between) {
+  if (!closing.caught && now_m <= kCloses * closing.from_m) {
     // Where they press and not where they have sunk in to: along a shaft that leans that is millimetres aside.
     const Pose X_TI{stylus.X_TI.R, stylus.X_TI.p + of.sunk_T};
-    of.between = cut_between(sheet, X_TI, std::min(options_.snip_m, of.opened_m) / 2);
+    closing.caught = cut_between(sheet, X_TI, std::min(options_.snip_m, closing.from_m) / 2);
   }
-  if (shut) {
-    of.opened_m = 0;
-    if (const auto cut = std::exchange(of.between, std::nullopt)) part_along(sheet, *cut);
+  if (now_m < o.shut_opening_m) {
+    if (const auto cut = std::exchange(closing, {}).caught) part_along(sheet, *cut);
     return;
   }
   const double resist = of.setup.material.toughness_j_per_m2 * of.setup.thickness_m * options_.snip_m / kOpenBlades;
-  if (stylus.jaw_opening_m < kOpenBlades) block_ = {stylus.jaw_opening_m + resist / kResistBlock, kResistBlock};
+  if (now_m < kOpenBlades) block_ = {now_m + resist / kResistBlock, kResistBlock};
 }
 
 /// Where the blades' plane crosses the sheet between their tips, from end to end.

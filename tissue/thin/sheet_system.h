@@ -101,6 +101,11 @@ class SheetSystem {
     Vec3 offset_T = Vec3::Zero();       ///< from that vertex
   };
   struct Sheet {
+    struct Closing {                            ///< of blades on it, from where they last opened or stood
+      double from_m = 0, narrowest_m = 0;       ///< openings
+      int stood_steps = 0;                      ///< since they were narrowed
+      std::optional<SheetCutSeen> caught = {};  ///< what lay between them as they began to close
+    };
     SheetSetup setup;
     ElasticSheet sheet;
     SheetSurface seen;
@@ -113,12 +118,12 @@ class SheetSystem {
     // In a frame:
     std::vector<Vec3> drawn_T = {};            ///< of each node, where it was as the sheet was spread
     std::vector<SheetEdge> cut_edges = {};     ///< so far: one alone parts nothing until the next one meets it
-    double opened_m = 0, pressed_n = 0;        ///< the blades' since they closed last; of the tips, now
+    double pressed_n = 0;                      ///< of the tips, now
     Vec3 sunk_T = Vec3::Zero();                ///< from the tips, that a contact lets sink in, up to what they press on
     int bite_steps = 1000;                     ///< since they pressed enough
-    std::optional<SheetCutSeen> between = {};  ///< the blades, as they began to close
-    bool snipped = false;                      ///< blades have pressed on it and not been opened since
-    bool still = false;                        ///< nothing moves it: no step is made
+    Closing closing = {};
+    bool snipped = false;  ///< blades have pressed on it and not been opened since
+    bool still = false;    ///< nothing moves it: no step is made
   };
   void know(const SoftOrgan& organ);
   NodeShares shares_at(const SoftOrgan& organ, std::int32_t vertex) const;

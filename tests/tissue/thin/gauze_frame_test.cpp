@@ -138,6 +138,23 @@ TEST(GauzeFrame, TheCutIsWhereTheBladesBeganToClose) {
   EXPECT_LT(((cut.from_rest_T + cut.to_rest_T) / 2 - gauze.pressed_T()).norm(), 8e-4) << "not 3 mm on";
 }
 
+TEST(GauzeFrame, BladesThatStandHalfClosedOrOpenAgainCutWhereTheyCloseThen) {
+  constexpr double kOpen = 0.008, kHalf = 0.005, kOn = 0.008;  // m
+  for (const bool opens : {false, true}) {
+    Gauze gauze;
+    for (int i = 0; i < 20; ++i) gauze.step(0, 0);
+    for (double o = 0.001; o <= kOpen; o += 0.001) gauze.step(o, 0.5);
+    for (double o = kOpen; o > kHalf; o -= 0.001) gauze.step(o, 0.5);
+    for (int i = 0; i < (opens ? 1 : 40); ++i) gauze.step(kHalf, 0.5, 0, kOn);
+    const double then = opens ? kHalf + 0.001 : kHalf;
+    for (double o = then; o > -0.001; o -= 0.001) gauze.step(o, 0.5, 0, kOn);
+    ASSERT_EQ(gauze.frame().sheet_cut_count, 1);
+    const SheetCutSeen& cut = gauze.frame().sheet_cut[0];
+    const Vec3 off = (cut.from_rest_T + cut.to_rest_T) / 2 - gauze.pressed_T();
+    EXPECT_NEAR(off.norm(), kOn, 8e-4) << (opens ? "opened again" : "stood");
+  }
+}
+
 TEST(GauzeFrame, TipsThatDoNotPressOrHardlyOpenCutNothing) {
   Gauze gauze;
   for (int i = 0; i < 20; ++i) gauze.step(0, 0);
