@@ -42,7 +42,8 @@ enum class ExerciseKind : std::uint8_t {
   kClip,
   kGauze,
   kNeedle,
-  kDissect
+  kDissect,
+  kOperation
 };
 
 /// What only one kind has, of the whole exercise or of a level: its room, scenarios/kinds/<kind>/<kind>_rules.h,
@@ -90,6 +91,7 @@ struct ExerciseLevel {
   std::vector<LevelAnchors> anchors;                         ///< in place of the rubric's
   GraspLevel grasp;                                          ///< grasp
   std::shared_ptr<const KindRules> own;                      ///< what only its kind has; nullptr: nothing
+  std::vector<ExerciseLevel> stages;                         ///< operation: of each of its stages
   Rubric rubric;                                             ///< with this level's anchors
   PointerLevel pointer;
 };
@@ -162,6 +164,16 @@ struct FormerRubric {
   std::string until;  ///< "2026-11-26", UTC
 };
 
+struct Exercise;
+
+/// A part of an operation: an exercise of another kind, at a place of its own in the same region.
+struct ExerciseStage {
+  std::string name;            ///< in metrics, "<name>/<metric>"
+  Vec3 at_m = Vec3::Zero();    ///< of its region's centre from the operation's, along x and y of T
+  InstrumentKind instrument;   ///< to be in hand as it begins
+  std::shared_ptr<const Exercise> exercise;  ///< without levels and rubric
+};
+
 struct Exercise {
   ExerciseKind kind = ExerciseKind::kTouch;
   std::string id, title, version;  ///< "surface-touch"
@@ -190,6 +202,8 @@ struct Exercise {
   std::optional<BedPlan> bed;
   std::optional<SuturePlan> suture;
   std::optional<LiePlan> lie;
+  std::vector<ExerciseStage> stages;  ///< operation: in their order
+  bool is_stage = false;              ///< of an operation: surface, tissue and start are that one's
   std::vector<ExerciseLevel> levels;
   Rubric rubric;  ///< of the first level
   std::filesystem::path file;

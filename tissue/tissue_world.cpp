@@ -298,7 +298,7 @@ void TissueWorld::tell_vessels() {
 }
 
 void TissueWorld::open_bleeders() {
-  if (bleeders_.empty() || !bleeds_.empty() || ducts_->any_whole()) return;
+  if (bleeders_.empty() || !bleeds_.empty() || ducts_->any_strand_whole()) return;
   for (const BleederSetup& bleeder : bleeders_) {
     const MaterialPoint place = soft_->nearest_place(soft_->place_T(soft_->shares_within(bleeder.place_T)));
     bleeds_.push_back(actions_->bleeding().open_vessel(

@@ -9,6 +9,7 @@ Ends with 1 where a metric, a sub-score or the score differs by more than 1e-9.
 """
 
 import bisect
+import copy
 import csv
 import json
 import math
@@ -55,7 +56,29 @@ class Attempt:
         self.events = [e for e in events if graded and start <= e["t"] <= end]
         self.samples = [s for s in samples if graded and start <= s["t"] <= end]
         self.times = [s["t"] for s in self.samples]
-        self.seconds = (samples[-1]["t"] if math.isinf(end) else end) - start if graded else None
+        self.end = samples[-1]["t"] if graded and math.isinf(end) else end
+        self.seconds = self.end - start if graded else None
+
+    def stage(self, name):
+        """A stage of an operation as an attempt of its own, its objects counted from 0; None: it never began."""
+        number, context = next((i, c) for i, c in enumerate(self.context["stages"]) if c["stage"] == name)
+        begun = [i for i, e in enumerate(self.events) if e["type"] == "STAGE_BEGUN"]
+        from_ = next((i for i in begun if self.events[i]["object"] == number), None)
+        if from_ is None:
+            return None
+        to = next((i for i in begun if i > from_), len(self.events))
+        end = self.events[to]["t"] if to < len(self.events) else self.end
+        own = copy.copy(self)
+        own.context = context
+        own.events = []
+        for event in self.events[from_ + 1:to]:
+            index = event["object"] - context["first_object"]
+            own.events.append(dict(event, object=index if 0 <= index < context["objects_total"] else -1))
+        start = self.events[from_]["t"]
+        own.samples = [s for s in self.samples if start <= s["t"] <= end]
+        own.times = [s["t"] for s in own.samples]
+        own.seconds = end - start
+        return own
 
     def count(self, *types):
         return sum(e["type"] in types for e in self.events)
@@ -328,12 +351,13 @@ def of_strands(value):
 
 def safe_energy_share(attempt):
     total = 0.0
-    for i in range(8):
+    objects = attempt.context["objects_total"]
+    for i in range(objects):
         def seconds(kind):
             return sum(e["value"] for e in attempt.events if e["type"] == kind and e["object"] == i)
         safe = seconds("CURRENT_USED")
         if safe > 0:
-            total += safe / (safe + seconds("UNSAFE_CURRENT")) / 8
+            total += safe / (safe + seconds("UNSAFE_CURRENT")) / objects
     return total
 
 
@@ -433,7 +457,8 @@ METRICS = {
     "needle_redos": needle_redos,
     "safe_energy_share": of_strands(safe_energy_share),
     "strands_lifted_share": of_strands(
-        lambda a: sum(e["type"] == "STRAND_DIVIDED" and e["severity"] == "info" for e in a.events) / 5),
+        lambda a: sum(e["type"] == "STRAND_DIVIDED" and e["severity"] == "info" for e in a.events)
+        / a.context.get("strands_total", 5)),
     "spurted_ml": spurted_ml,
     "strand_current_s": of_strands(strand_current),
     "cut_area_share": gauze_metric(lambda a: sum_of(a, "SNIP")),
@@ -453,9 +478,11 @@ def score(attempt):
         return None, {}  # nothing is graded: left, ended by the device, or its record or pacing is unfit
     parts, total, most, danger = {}, 0.0, 100.0, 100.0
     for rule in rubric["subscores"]:
-        if rule["metric"] not in METRICS:
-            raise SystemExit(f"this program does not know the metric {rule['metric']}")
-        raw = METRICS[rule["metric"]](attempt)
+        stage, _, metric = rule["metric"].rpartition("/")
+        if metric not in METRICS:
+            raise SystemExit(f"this program does not know the metric {metric}")
+        judged = attempt.stage(stage) if stage else attempt
+        raw = METRICS[metric](judged) if judged else None
         share = 0.0 if raw is None else (raw - rule["zero_at"]) / (rule["full_at"] - rule["zero_at"])
         share = min(1.0, max(0.0, share))
         parts[rule["name"]] = (raw, share)

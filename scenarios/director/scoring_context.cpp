@@ -9,6 +9,7 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/kinds/kind.h"
+#include "scenarios/scoring/metrics.h"
 
 namespace trocar {
 namespace {
@@ -89,10 +90,28 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
   kind_of(exercise).account(board, events, context);
+  for (std::size_t i = 0; i < exercise.stages.size(); ++i) {
+    const Board& own = board.stages[i];
+    const auto targets = static_cast<int>(own.targets.size());
+    ScoringContext stage =
+        scoring_context(*exercise.stages[i].exercise, level.stages[i], own,
+                        events_of_stage(events, static_cast<int>(i), context.objects_total, targets), outcome);
+    stage.stage = exercise.stages[i].name;
+    stage.first_object = context.objects_total;
+    const std::string prefix = stage_metric(stage.stage, "");
+    for (const SubscoreRule& rule : level.rubric.subscores)
+      if (rule.metric.starts_with(prefix)) stage.stage_metrics.emplace_back(plain_metric(rule.metric));
+    context.waypoints.insert(context.waypoints.end(), stage.waypoints.begin() + 1, stage.waypoints.end());
+    context.objects_total += stage.objects_total;
+    context.objects_done += stage.objects_done;
+    context.stages.push_back(std::move(stage));
+  }
   return context;
 }
 
-std::string scoring_context_json(const ScoringContext& context) {
+namespace {
+
+Json json_of(const ScoringContext& context) {
   require_finite(context);
   Json json;
   json["outcome"] = status_name(context.outcome);
@@ -109,28 +128,52 @@ std::string scoring_context_json(const ScoringContext& context) {
   json["objects_done"] = context.objects_done;
   if (context.ring_on_wire) json["ring_on_wire"] = true;
   if (context.room_share) json["room_share"] = *context.room_share;
-  return json.dump();
+  if (context.strands_total != ScoringContext{}.strands_total) json["strands_total"] = context.strands_total;
+  if (!context.stages.empty()) json["stages"] = Json::array();
+  for (const ScoringContext& stage : context.stages) {
+    Json own = json_of(stage);
+    own["stage"] = stage.stage;
+    own["first_object"] = stage.first_object;
+    own["stage_metrics"] = stage.stage_metrics;
+    json["stages"].push_back(std::move(own));
+  }
+  return json;
 }
+
+ScoringContext context_of(const Json& json) {
+  ScoringContext context;
+  context.outcome = status_from(json.at("outcome").get<std::string>());
+  for (const auto& [key, member] : kNumbers) context.*member = json.at(key).get<double>();
+  context.approach_T = vector_from(json.at("approach"));
+  for (const Json& point : json.at("waypoints")) context.waypoints.push_back(vector_from(point));
+  for (const Json& band : json.value("object_bands", Json::array()))
+    context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
+  for (const Json& window : json.value("grip_windows", Json::array()))
+    context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
+  context.counted_hold_s = json.value("counted_hold_s", 0.0);
+  context.objects_total = json.at("objects_total").get<int>();
+  context.objects_done = json.at("objects_done").get<int>();
+  context.ring_on_wire = json.value("ring_on_wire", false);
+  if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
+  context.strands_total = json.value("strands_total", context.strands_total);
+  for (const Json& own : json.value("stages", Json::array())) {
+    context.stages.push_back(context_of(own));
+    ScoringContext& stage = context.stages.back();
+    stage.stage = own.at("stage").get<std::string>();
+    stage.first_object = own.at("first_object").get<int>();
+    stage.stage_metrics = own.at("stage_metrics").get<std::vector<std::string>>();
+  }
+  require_finite(context);
+  return context;
+}
+
+}  // namespace
+
+std::string scoring_context_json(const ScoringContext& context) { return json_of(context).dump(); }
 
 ScoringContext parse_scoring_context(const std::string& text, const std::string& name) {
   try {
-    const Json json = Json::parse(text);
-    ScoringContext context;
-    context.outcome = status_from(json.at("outcome").get<std::string>());
-    for (const auto& [key, member] : kNumbers) context.*member = json.at(key).get<double>();
-    context.approach_T = vector_from(json.at("approach"));
-    for (const Json& point : json.at("waypoints")) context.waypoints.push_back(vector_from(point));
-    for (const Json& band : json.value("object_bands", Json::array()))
-      context.object_bands.push_back({band.at(0).get<double>(), band.at(1).get<double>()});
-    for (const Json& window : json.value("grip_windows", Json::array()))
-      context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
-    context.counted_hold_s = json.value("counted_hold_s", 0.0);
-    context.objects_total = json.at("objects_total").get<int>();
-    context.objects_done = json.at("objects_done").get<int>();
-    context.ring_on_wire = json.value("ring_on_wire", false);
-    if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
-    require_finite(context);
-    return context;
+    return context_of(Json::parse(text));
   } catch (const std::exception& error) {
     throw InputError(name + ": " + error.what());
   }

@@ -109,6 +109,19 @@ std::vector<FormerRubric> read_former_rubrics(StrictTable& document) {
 
 }  // namespace
 
+Exercise read_stage(StrictTable& table, const Exercise& operation, const std::vector<std::string>& kinds) {
+  Exercise stage = operation;
+  stage.is_stage = true;
+  stage.stages.clear();
+  stage.kind = kind_named(table.choice("kind", kinds))->kind;
+  read_targets(table.table("targets"), stage);
+  table.allow("force");
+  if (table.has("force")) read_force(table.table("force"), stage);
+  stage.ducts = read_ducts(table);
+  kind_of(stage).read(table, stage);
+  return stage;
+}
+
 Exercise parse_exercise(const std::string& text, const std::filesystem::path& file) {
   StrictTable document = StrictTable::parse(text, file.string());
   Exercise exercise;
@@ -126,8 +139,8 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   read_start(document.table("start"), exercise);
   read_targets(document.table("targets"), exercise);
   read_force(document.table("force"), exercise);
-  kind_of(exercise).read(document, exercise);
   exercise.ducts = read_ducts(document);
+  kind_of(exercise).read(document, exercise);
   exercise.sheets = read_sheets(document);
   exercise.breathing = read_breathing(document);
   exercise.bed = read_bed(document);
@@ -135,11 +148,11 @@ Exercise parse_exercise(const std::string& text, const std::filesystem::path& fi
   exercise.suture = read_suture(document, exercise.instruments);
   read_levels(document, exercise);
   for (ExerciseLevel& level : exercise.levels) {
-    level.rubric = read_rubric(document.table("rubric"), level);
+    level.rubric = read_rubric(document.table("rubric"), exercise, level);
     level.rubric.sha256 = digest::of_bytes(text);
     ExerciseLevel by_pointer = level;
     if (level.pointer.expert_time_s > 0) by_pointer.expert_time_s = level.pointer.expert_time_s;
-    level.pointer.rubric = read_rubric(document.table("rubric"), by_pointer);
+    level.pointer.rubric = read_rubric(document.table("rubric"), exercise, by_pointer);
     level.pointer.rubric.sha256 = level.rubric.sha256;
   }
   exercise.rubric = exercise.levels.front().rubric;

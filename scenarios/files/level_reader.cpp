@@ -112,12 +112,10 @@ double anchor(StrictTable& table, const std::string& key, const std::vector<Anch
   return table.number(key, -1e6, 1e6);
 }
 
-SubscoreRule read_rule(StrictTable table, const std::vector<AnchorUnit>& units) {
+SubscoreRule read_rule(StrictTable table, const Exercise& exercise, const std::vector<AnchorUnit>& units) {
   SubscoreRule rule;
   rule.name = table.text("name");
-  std::vector<std::string> metrics;
-  for (const MetricDefinition& definition : metric_catalogue()) metrics.emplace_back(definition.name);
-  rule.metric = table.choice("metric", metrics);
+  rule.metric = table.choice("metric", metric_names(exercise));
   rule.weight = table.number("weight", 0, 1);
   rule.gate = table.flag_or("gate", false);
   rule.gate_below = table.number_or("gate_below", 0, 1, 0.5);
@@ -130,7 +128,16 @@ SubscoreRule read_rule(StrictTable table, const std::vector<AnchorUnit>& units) 
 
 }  // namespace
 
-Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
+std::vector<std::string> metric_names(const Exercise& exercise) {
+  std::vector<std::string> names;
+  for (const MetricDefinition& definition : metric_catalogue()) {
+    names.emplace_back(definition.name);
+    for (const ExerciseStage& stage : exercise.stages) names.push_back(stage_metric(stage.name, definition.name));
+  }
+  return names;
+}
+
+Rubric read_rubric(StrictTable table, const Exercise& exercise, const ExerciseLevel& level) {
   Rubric rubric;
   const double own_time_s = table.number_or("expert_time_s", 1, 3600, 0);
   rubric.pass_at = table.number("pass_at", 0, 100);
@@ -150,7 +157,7 @@ Rubric read_rubric(StrictTable table, const ExerciseLevel& level) {
       {"_angle_tolerances", level.angle_tolerance_rad / kDegrees, "a level with 'angle_tolerance_deg'"}};
   double sum = 0;
   for (StrictTable& rule : table.tables("subscores")) {
-    rubric.subscores.push_back(read_rule(rule, units));
+    rubric.subscores.push_back(read_rule(rule, exercise, units));
     SubscoreRule& read = rubric.subscores.back();
     for (const LevelAnchors& other : level.anchors) {
       if (other.subscore != read.name) continue;

@@ -48,6 +48,8 @@ HandJob task_of(const Percept& percept) {
     case Cue::kHook:
     case Cue::kSeal:
       return {HandJob::Kind::kHooking, percept.target_index};
+    case Cue::kExchange:
+      return {HandJob::Kind::kExchange, percept.target_index};
     case Cue::kNone:
       break;
   }

@@ -38,6 +38,7 @@ struct HandJob {
     kSnips,
     kSewing,
     kHooking,
+    kExchange,
     kFinished
   } kind = Kind::kNothing;
   static constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kFinished) + 1;

@@ -20,6 +20,7 @@ namespace trocar {
 /// target, divide it there. kSnip: cut along the line from the target towards the goal. kTakeNeedle: grasp the needle,
 /// which is the object; kDrive: drive it in at the target and out at the goal; kPull: draw it through. kHook: lift the
 /// strand at the target on the hook towards the goal and divide it; kSeal: coagulate what bleeds at the target.
+/// kExchange: take the instrument that is asked for.
 enum class Cue : std::uint8_t {
   kNone,
   kWait,
@@ -44,7 +45,8 @@ enum class Cue : std::uint8_t {
   kDrive,
   kPull,
   kHook,
-  kSeal
+  kSeal,
+  kExchange
 };
 
 /// An object that the exercise is about, as it is seen on the screen.

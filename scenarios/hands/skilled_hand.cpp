@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/hands/exchange_job.h"
 #include "scenarios/hands/population.h"
 #include "scenarios/kinds/clip/clip_job.h"
 #include "scenarios/kinds/dissect/hook_job.h"
@@ -62,6 +63,7 @@ SkilledHand::SkilledHand(const HandSkill& skill, std::uint64_t seed)
   bring(HandJob::Kind::kClips, std::make_unique<ClipJob>(skill_));
   bring(HandJob::Kind::kSewing, std::make_unique<NeedleJob>(skill_));
   bring(HandJob::Kind::kHooking, std::make_unique<HookJob>(skill_));
+  bring(HandJob::Kind::kExchange, std::make_unique<ExchangeJob>(skill_));
   bring(HandJob::Kind::kSnips, std::make_unique<SnipJob>(skill_));
   bring(HandJob::Kind::kAnswer, std::make_unique<FindJob>(skill_));
   bring(HandJob::Kind::kSearch, std::make_unique<PalpateJob>(skill_));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/exercise.h"
@@ -81,6 +82,8 @@ JudgedForces judged_forces(const Exercise&, const ExerciseLevel&, const Board&, 
 WatchedForce watched_now(const Exercise&, const DirectorStatus&);
 /// The force of the tip that is judged is the pull of tissue in the jaws, not a press.
 bool judges_pull(const Exercise&);
+/// The stage of an operation that a metric is of, by its name; of the whole: the exercise itself.
+const Exercise& judged_part(const Exercise&, std::string_view metric);
 /// May the progress of a hold be seen during the run? Where the force is hidden it would tell that it is right.
 bool hold_shown(const Exercise&, const ExerciseLevel&);
 

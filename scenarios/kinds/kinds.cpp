@@ -13,19 +13,21 @@
 #include "scenarios/kinds/grasp/grasp_kind.h"
 #include "scenarios/kinds/kind_parts.h"
 #include "scenarios/kinds/needle/needle_kind.h"
+#include "scenarios/kinds/operation/operation_kind.h"
 #include "scenarios/kinds/palpate/palpate_kind.h"
 #include "scenarios/kinds/pegs/pegs_kind.h"
 #include "scenarios/kinds/reach/reach_kind.h"
 #include "scenarios/kinds/retract/retract_kind.h"
 #include "scenarios/kinds/touch/touch_kind.h"
 #include "scenarios/kinds/wire/wire_kind.h"
+#include "scenarios/scoring/metrics.h"
 
 namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
   static const std::vector<KindDescription> kinds{
       reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(), pegs_kind(),   wire_kind(),   find_kind(),
-      retract_kind(), palpate_kind(), clip_kind(),  gauze_kind(),  needle_kind(), dissect_kind()};
+      retract_kind(), palpate_kind(), clip_kind(),  gauze_kind(),  needle_kind(), dissect_kind(), operation_kind()};
   return kinds;
 }
 
@@ -39,6 +41,7 @@ void read_places(StrictTable& targets, TargetLayout& layout) {
 }
 
 void read_giving_tissue(StrictTable& document, Exercise& exercise) {
+  if (exercise.is_stage) return;
   exercise.tissue = document.choice_or("tissue", {kTissueWords.begin() + 1, kTissueWords.end()}, kNormalTissue);
 }
 
@@ -70,6 +73,12 @@ WatchedForce watched_now(const Exercise& exercise, const DirectorStatus& status)
 bool judges_pull(const Exercise& exercise) {
   const KindDescription& kind = kind_of(exercise);
   return kind.jaws_hold && kind.watched == WatchedForce::kTip;
+}
+
+const Exercise& judged_part(const Exercise& exercise, std::string_view metric) {
+  for (const ExerciseStage& stage : exercise.stages)
+    if (metric.starts_with(stage_metric(stage.name, ""))) return *stage.exercise;
+  return exercise;
 }
 
 bool hold_shown(const Exercise& exercise, const ExerciseLevel& level) {

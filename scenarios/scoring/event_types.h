@@ -65,6 +65,8 @@ inline constexpr EventType kNeedleGripped{"NEEDLE_GRIPPED"}, kBiteBegun{"BITE_BE
 inline constexpr EventType kStrandLifted{"STRAND_LIFTED"}, kStrandDivided{"STRAND_DIVIDED"},
     kCurrentUsed{"CURRENT_USED"}, kUnsafeCurrent{"UNSAFE_CURRENT"}, kSpurts{"SPURTS"}, kSealed{"SEALED"},
     kSealedLate{"SEALED_LATE"}, kPerforated{"PERFORATED"};
+// Operation
+inline constexpr EventType kStageBegun{"STAGE_BEGUN"};
 // Persons: nobody grades these, and running the recording again does not make them
 inline constexpr EventType kMarked{"MARKED"}, kMessage{"MESSAGE"};
 
@@ -82,7 +84,7 @@ inline constexpr EventType kAll[] = {
     kClipSet,       kClipWasted,   kWrongStructure, kDivided,       kCutTooSoon,     kSnip,         kOffLine,
     kPulledHard,    kGauzeTorn,    kNeedleGripped,  kBiteBegun,     kBiteThrough,    kBiteUndone,   kNeedleDrawn,
     kNeedleLost,    kStrandLifted, kStrandDivided,  kCurrentUsed,   kUnsafeCurrent,  kSpurts,       kSealed,
-    kSealedLate,    kPerforated,   kMarked,         kMessage};
+    kSealedLate,    kPerforated,   kStageBegun,    kMarked,         kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

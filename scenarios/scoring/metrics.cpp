@@ -206,10 +206,10 @@ constexpr MetricDefinition kCatalogue[] = {
     {"needle_redos", "1", "needles grasped again or at the wrong place, bites undone, needles dropped",
      "count of NEEDLE_GRIPPED that is not info + count of BITE_UNDONE + count of NEEDLE_LOST", kLess, kErrors},
     {"safe_energy_share", "1",
-     "safe current over safe and unsafe, mean over the five strands and three vessels; an object without any has 0",
-     "mean over 8 objects of CURRENT_USED / (CURRENT_USED + UNSAFE_CURRENT)", kMore, kErrors},
-    {"strands_lifted_share", "1", "strands that were parted by current while lifted high enough, of the five",
-     "count of STRAND_DIVIDED that is info / 5", kMore, kErrors},
+     "safe current over safe and unsafe, mean over strands and vessels; an object without any has 0",
+     "mean over objects of CURRENT_USED / (CURRENT_USED + UNSAFE_CURRENT)", kMore, kErrors},
+    {"strands_lifted_share", "1", "strands that were parted by current while lifted high enough, of those asked for",
+     "count of STRAND_DIVIDED that is info / strands asked for", kMore, kErrors},
     {"spurted_ml", "mL", "blood lost by all vessels that spurted, as last told",
      "the last of SPURTS, BLEEDING and SEALED, once there is a SPURTS", kLess, kErrors},
     {"strand_current_s", "s", "time of the pedal while a strand was lit, mean over the strands that current parted",
@@ -243,7 +243,14 @@ const std::vector<MetricDefinition>& metric_catalogue() {
   return catalogue;
 }
 
+std::string stage_metric(std::string_view stage, std::string_view metric) {
+  return std::string(stage) + "/" + std::string(metric);
+}
+
+std::string_view plain_metric(std::string_view name) { return name.substr(name.rfind('/') + 1); }
+
 const MetricDefinition* find_metric(std::string_view name) {
+  name = plain_metric(name);
   for (const MetricDefinition& definition : metric_catalogue()) {
     if (definition.name == name) return &definition;
   }
@@ -253,7 +260,7 @@ const MetricDefinition* find_metric(std::string_view name) {
 bool is_force_metric(std::string_view name) {
   const MetricDefinition* metric = find_metric(name);
   if (metric && metric->unit.starts_with('N')) return true;
-  return std::find(std::begin(kForceShares), std::end(kForceShares), name) != std::end(kForceShares);
+  return std::find(std::begin(kForceShares), std::end(kForceShares), plain_metric(name)) != std::end(kForceShares);
 }
 
 Trace cut_trace(const Trace& trace, double start_s, double end_s) {
@@ -298,6 +305,40 @@ void add_count_metrics(const std::vector<Event>& events, const ScoringContext& c
   sink.push_back({"clutches", clutches, "1"});
 }
 
+std::vector<Event> events_of_stage(const std::vector<Event>& events, int stage, int first_object, int objects) {
+  std::vector<Event> out;
+  for (const Event& event : events) {
+    const bool begins = event.type == event_type::kStageBegun;
+    const bool ends = event.type == event_type::kDone || event.type == event_type::kTimeout;
+    if (out.empty() && !(begins && event.object == stage)) continue;
+    Event own = event;
+    if (event.object >= 0) own.object -= first_object;
+    if (own.object < 0 || own.object >= objects) own.object = -1;
+    if (out.empty()) own.type = event_type::kStart.name;
+    if (begins && !out.empty()) own.type = event_type::kDone.name;
+    if (begins) own.object = -1;
+    out.push_back(own);
+    if (out.size() > 1 && (begins || ends)) break;
+  }
+  return out;
+}
+
+namespace {
+
+void add_stage_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& stage, int index,
+                       MetricSink& sink) {
+  const std::vector<Event> own = events_of_stage(events, index, stage.first_object, stage.objects_total);
+  const std::vector<Metric> all = own.empty() ? std::vector<Metric>{} : compute_metrics(trace, own, stage);
+  for (const std::string& name : stage.stage_metrics) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Metric& metric) { return metric.name == name; });
+    const MetricDefinition* known = find_metric(name);
+    sink.push_back({stage_metric(stage.stage, name), found == all.end() ? std::nullopt : found->value,
+                    known ? std::string(known->unit) : ""});
+  }
+}
+
+}  // namespace
+
 std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>& events,
                                     const ScoringContext& context) {
   const auto window = graded_window(trace, events);
@@ -325,9 +366,11 @@ std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>
                    window ? std::optional<double>(window->second - window->first) : std::nullopt, metrics);
   add_clip_metrics(graded_events, metrics);
   add_needle_metrics(graded_events, metrics);
-  add_dissect_metrics(graded, graded_events, metrics);
+  add_dissect_metrics(graded, graded_events, context, metrics);
   add_gauze_metrics(graded_events, metrics);
   assert(metrics.size() == metric_catalogue().size());
+  for (std::size_t i = 0; i < context.stages.size(); ++i)
+    add_stage_metrics(trace, events, context.stages[i], static_cast<int>(i), metrics);
   return metrics;
 }
 

@@ -27,7 +27,11 @@ struct MetricDefinition {
 
 /// All metrics, in the order of the table.
 const std::vector<MetricDefinition>& metric_catalogue();
-/// nullptr when unknown.
+/// "<stage>/<metric>": of a stage of an operation.
+std::string stage_metric(std::string_view stage, std::string_view metric);
+/// Of a stage or of the whole: its name in the table.
+std::string_view plain_metric(std::string_view name);
+/// By its plain name. nullptr when unknown.
 const MetricDefinition* find_metric(std::string_view name);
 
 /// Does it tell how hard was pressed or held?
@@ -36,7 +40,11 @@ bool is_force_metric(std::string_view name);
 /// Part of a trace with start <= t <= end.
 Trace cut_trace(const Trace& trace, double start_s, double end_s);
 
-/// Every metric of the catalogue, in its order. @param trace strictly increasing finite times (integrity.h).
+/// Events of an operation's stage as those of an attempt: START where it began, DONE or TIMEOUT where the next one did or
+/// all ended, between them its own objects, counted from 0, and what names none. Empty: it never began.
+std::vector<Event> events_of_stage(const std::vector<Event>& events, int stage, int first_object, int objects);
+
+/// Every metric of the catalogue, in its order; after them the stages' that are asked for. @param trace strictly increasing finite times (integrity.h).
 std::vector<Metric> compute_metrics(const Trace& trace, const std::vector<Event>& events,
                                     const ScoringContext& context);
 
@@ -72,7 +80,8 @@ void add_clip_metrics(const std::vector<Event>& events, MetricSink& sink);
 /// @param events of the graded window.
 void add_needle_metrics(const std::vector<Event>& events, MetricSink& sink);
 /// @param trace and @param events of the graded window.
-void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, MetricSink& sink);
+void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, const ScoringContext& context,
+                         MetricSink& sink);
 void add_gauze_metrics(const std::vector<Event>& events, MetricSink& sink);
 void add_count_metrics(const std::vector<Event>& events, const ScoringContext& context, MetricSink& sink);
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "haptics/quantities.h"
@@ -34,6 +35,13 @@ struct ScoringContext {
   std::optional<double> room_share;  ///< of the region, where the device can give the soft limit
   bool ring_on_wire = false;         ///< metrics of ring and wire are defined
   int objects_total = 0, objects_done = 0;
+  int strands_total = 5;  ///< of the objects, the first: strands to be divided
+
+  // An operation's stages, each graded as an attempt of its own; the numbers of its objects begin at 0 there.
+  std::vector<ScoringContext> stages;
+  std::string stage;                       ///< its name; empty: no stage
+  int first_object = 0;                    ///< number of its first object in the whole
+  std::vector<std::string> stage_metrics;  ///< that are told of it, as "<stage>/<metric>"
 
   bool operator==(const ScoringContext&) const = default;
 };

@@ -261,7 +261,7 @@ TEST_F(Usage, UnknownCommandFlagOrMissingValueIsBadUsage) {
 
 TEST_F(Usage, CatalogueListsAndExplains) {
   const Json catalogue = json_of({"exercises", "--json"}, 0);
-  ASSERT_EQ(catalogue.size(), 13u);
+  ASSERT_EQ(catalogue.size(), 14u);
   EXPECT_EQ(catalogue[1]["id"], "surface-touch");
   EXPECT_EQ(catalogue[1]["number"], "E02");
   EXPECT_EQ(catalogue[1]["rubric_sha256"].get<std::string>().size(), 64u);

@@ -500,7 +500,11 @@ bool DuctSystem::whole(const Duct& duct) {
                      [](const DuctMark& mark) { return mark.kind == DuctMark::Kind::kNick; });
 }
 
-bool DuctSystem::any_whole() const { return std::any_of(ducts_.begin(), ducts_.end(), whole); }
+bool DuctSystem::any_strand_whole() const {
+  return std::any_of(ducts_.begin(), ducts_.end(), [](const Duct& duct) {
+    return duct.setup.content == DuctContent::kNothing && whole(duct);
+  });
+}
 
 std::vector<DuctMark> DuctSystem::marks() const {
   std::vector<DuctMark> out;

@@ -105,8 +105,8 @@ class DuctSystem {
   std::span<const DuctChange> changed() const { return changed_; }  ///< in the last step
   /// What the closing of jaws in the last step came to: 0, or why nothing came of it (refusal_code).
   std::optional<std::int32_t> closing() const { return closing_; }
-  /// Is one of them not yet divided?
-  bool any_whole() const;
+  /// Is one that carries nothing not yet divided?
+  bool any_strand_whole() const;
   std::int32_t cuts() const { return cuts_; }  ///< with partial ones
   std::int32_t tears() const { return tears_; }
   std::int32_t clips() const { return clips_; }

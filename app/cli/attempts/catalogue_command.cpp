@@ -80,7 +80,7 @@ void list_exercise(const Exercise& exercise, std::ostream& out) {
 void explain_rule(const SubscoreRule& rule, std::ostream& out) {
   const MetricDefinition* metric = find_metric(rule.metric);
   const std::string unit(metric ? metric->unit : "");
-  out << "  " << std::left << std::setw(16) << rule.name << "weight " << rule.weight << ", " << rule.metric
+  out << "  " << std::left << std::setw(15) << rule.name << " weight " << rule.weight << ", " << rule.metric
       << ": full at " << rule.full_at << ' ' << unit << ", none at " << rule.zero_at << ' ' << unit;
   if (rule.gate) out << "; safety gate below " << rule.gate_below;
   out << '\n';
@@ -125,7 +125,7 @@ void explain_metric(const MetricDefinition& metric, const std::vector<Exercise>&
   for (const Exercise& exercise : exercises) {
     for (const ExerciseLevel& level : exercise.levels) {
       for (const SubscoreRule& rule : level.rubric.subscores) {
-        if (rule.metric != metric.name) continue;
+        if (plain_metric(rule.metric) != metric.name) continue;
         graded = true;
         out << exercise.id << ' ' << level.name << '\n';
         explain_rule(rule, out);

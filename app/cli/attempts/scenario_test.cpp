@@ -5,6 +5,7 @@
 
 #include "haptics/input_error.h"
 #include "scenarios/files/exercise_loader.h"
+#include "scenarios/files/level_reader.h"
 #include "scenarios/files/strict_toml.h"
 #include "scenarios/scoring/metrics.h"
 #include "tissue/solid/tissue_table.h"
@@ -81,7 +82,7 @@ std::vector<ExpectedValue> read_values(std::vector<StrictTable> tables, const st
   return out;
 }
 
-void read_expect(StrictTable table, const ExerciseLevel& level, ScenarioTest& test) {
+void read_expect(StrictTable table, const Exercise& exercise, const ExerciseLevel& level, ScenarioTest& test) {
   for (const char* key : {"status", "fault", "passed", "score", "caps", "events", "metrics", "subscores"})
     table.allow(key);
   if (table.has("status")) {
@@ -96,10 +97,9 @@ void read_expect(StrictTable table, const ExerciseLevel& level, ScenarioTest& te
   if (table.has("score")) test.score = read_range(table, "score", 0, 100);
   if (table.has("caps")) test.caps = read_range(table, "caps", 0, 10);
   if (table.has("events")) test.events = read_events(table.tables("events"));
-  std::vector<std::string> metrics, subscores;
-  for (const MetricDefinition& metric : metric_catalogue()) metrics.emplace_back(metric.name);
+  std::vector<std::string> subscores;
   for (const SubscoreRule& rule : level.rubric.subscores) subscores.push_back(rule.name);
-  if (table.has("metrics")) test.metrics = read_values(table.tables("metrics"), metrics);
+  if (table.has("metrics")) test.metrics = read_values(table.tables("metrics"), metric_names(exercise));
   if (table.has("subscores")) test.subscores = read_values(table.tables("subscores"), subscores);
   table.finish();
   if (!test.status && !test.fault && !test.passed && !test.score && !test.caps && test.events.empty() &&
@@ -144,7 +144,7 @@ ScenarioTest read_scenario_test(const std::filesystem::path& file, const AssetRo
   test.name = document.text("name");
   test.run = read_run(document.table("run"), file);
   const Exercise exercise = find_exercise(test.run.exercise, assets.exercises);
-  read_expect(document.table("expect"), find_level(exercise, test.run.level), test);
+  read_expect(document.table("expect"), exercise, find_level(exercise, test.run.level), test);
   document.finish();
   return test;
 }

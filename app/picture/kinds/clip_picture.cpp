@@ -2,6 +2,7 @@
 
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "app/picture/kinds/stage_parts.h"
 #include "haptics/least_turn.h"
 #include "scenarios/kinds/clip/clip_rules.h"
 
@@ -38,22 +39,24 @@ void add_neck(const Board& board, std::vector<SceneObject>& out) {
   }
 }
 
-/// Rings round where clips and cuts are asked for, while they are not there.
-void add_places(const SessionView& view, std::vector<SceneObject>& out) {
-  add_neck(view.scene.board, out);
-  const DirectorStatus& status = view.director.status();
-  if (!own_rules<ClipLevel>(view.scene.level).places_shown || status.target_index < 0) return;
-  const Exercise& exercise = view.scene.setup.exercise;
+}  // namespace
+
+void add_clip_places(const Exercise& exercise, const ExerciseLevel& level, const Board& board,
+                     const DirectorStatus& status, std::vector<SceneObject>& out) {
+  add_neck(board, out);
+  if (!own_rules<ClipLevel>(level).places_shown || status.target_index < 0) return;
   const ClipAim asked = clip_aim(status.target_index);
   for (int target = 0; target < kClipAims; ++target) {
     const ClipAim aim = clip_aim(target);
     if (aim.structure != asked.structure || aim.step != asked.step || status.done[static_cast<std::size_t>(target)])
       continue;
-    const Target& place = view.scene.board.targets[static_cast<std::size_t>(target)];
+    const Target& place = board.targets[static_cast<std::size_t>(target)];
     const double radius_m = exercise.ducts[static_cast<std::size_t>(aim.structure)].outer_radius_m;
     out.push_back(ring_round_place(place, radius_m, target == status.target_index));
   }
 }
+
+namespace {
 
 std::vector<ForceBar> clip_bars(const SessionView& view) {
   const ClipRules& rules = own_rules<ClipRules>(view.scene.setup.exercise);
@@ -87,7 +90,11 @@ KindPicture clip_picture() {
                                            hold_row(status)};
               },
           .bars = clip_bars,
-          .add_objects = add_places,
+          .add_objects =
+              [](const SessionView& view, std::vector<SceneObject>& out) {
+                const Scene& scene = view.scene;
+                add_clip_places(scene.setup.exercise, scene.level, scene.board, view.director.status(), out);
+              },
           .work = clip_work,
           .telling =
               [](const SessionView& view) {

@@ -1,5 +1,6 @@
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "app/picture/kinds/stage_parts.h"
 #include "haptics/least_turn.h"
 #include "scenarios/kinds/dissect/dissect_rules.h"
 
@@ -9,11 +10,11 @@ namespace {
 constexpr double kBesideVessel = 0.005;                 // m
 constexpr double kLitRing = 0.007, kLitThick = 0.0008;  // m, round the middle of the lit strand
 
-/// A ring round the lit strand, which it passes through, and where the tip shall be lifted to.
-void add_lit_strand(const SessionView& view, std::vector<SceneObject>& out) {
-  const DirectorStatus& status = view.director.status();
+}  // namespace
+
+void add_lit_strand(const Board& board, const DirectorStatus& status, std::vector<SceneObject>& out) {
   if (status.cue != Cue::kHook || status.target_index < 0 || status.exposure >= 1) return;
-  const auto& path = view.scene.board.ducts_T[static_cast<std::size_t>(status.target_index)];
+  const auto& path = board.ducts_T[static_cast<std::size_t>(status.target_index)];
   SceneObject ring;
   ring.shape = SceneObject::Shape::kRing;
   ring.style = SceneObject::Style::kGhostLit;
@@ -22,6 +23,8 @@ void add_lit_strand(const SessionView& view, std::vector<SceneObject>& out) {
   ring.X_TO = {least_turn(Vec3::UnitZ(), along).toRotationMatrix(), status.demand.centre_T};
   out.push_back(ring);
 }
+
+namespace {
 
 /// A disc under a strand would be taken for what is to be touched, and vessels are not there before they spurt.
 void keep_lit_vessel(const SessionView& view, std::vector<TargetMark>& discs) {
@@ -43,12 +46,6 @@ Eigen::AlignedBox3d dissect_work(const Scene& scene) {
   return box;
 }
 
-std::string of_count(const DirectorStatus& status, int from, int to) {
-  int done = 0;
-  for (int i = from; i < to; ++i) done += status.done[static_cast<std::size_t>(i)];
-  return std::to_string(done) + " / " + std::to_string(to - from);
-}
-
 }  // namespace
 
 KindPicture dissect_picture() {
@@ -59,21 +56,26 @@ KindPicture dissect_picture() {
                     hud_step("Divide the strands, then stop the bleeding", run.done, run.started && !run.done)};
               },
           .rows =
-              [](const Scene&, const DirectorStatus& status) {
-                return std::vector<HudRow>{{"Strands divided", of_count(status, 0, kStrands), ""},
-                                           {"Vessels sealed", of_count(status, kStrands, kDissectAims), ""},
+              [](const Scene& scene, const DirectorStatus& status) {
+                const int strands = own_rules<DissectRules>(scene.setup.exercise).strands;
+                const auto objects = static_cast<int>(scene.board.targets.size());
+                return std::vector<HudRow>{{"Strands divided", of_count(status, 0, strands), ""},
+                                           {"Vessels sealed", of_count(status, strands, objects), ""},
                                            {"Lifted", hud_number("%.0f", 100 * status.exposure), "%"},
                                            {"Mistakes", std::to_string(status.wrong_places), "x"}};
               },
           .bars = dissect_bars,
-          .add_objects = add_lit_strand,
+          .add_objects =
+              [](const SessionView& view, std::vector<SceneObject>& out) {
+                add_lit_strand(view.scene.board, view.director.status(), out);
+              },
           .work = dissect_work,
           .telling =
               [](const SessionView& view) {
                 const DirectorStatus& status = view.director.status();
                 const StylusState& stylus = view.record.stylus;
                 const bool beside = (stylus.X_TI.p - status.demand.centre_T).norm() < kBesideVessel;
-                return status.cue == Cue::kSeal && status.done[kStrands] && beside && stylus.pedal;
+                return status.cue == Cue::kSeal && status.done[kMostStrands] && beside && stylus.pedal;
               },
           .add_marks = keep_lit_vessel};
 }

@@ -18,6 +18,12 @@ std::string targets_done(const Scene& scene, const DirectorStatus& status) {
   return std::to_string(status.targets_done) + " / " + std::to_string(scene.board.targets.size());
 }
 
+std::string of_count(const DirectorStatus& status, int from, int to) {
+  int done = 0;
+  for (int i = from; i < to; ++i) done += status.done[static_cast<std::size_t>(i)];
+  return std::to_string(done) + " / " + std::to_string(to - from);
+}
+
 HudRow hold_row(const DirectorStatus& status) {
   return {"Hold", hud_number("%.0f", 100 * status.hold_progress), "%", true};
 }

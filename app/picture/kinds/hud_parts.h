@@ -14,6 +14,8 @@ std::string hud_number(const char* format, double value);
 HudStep hud_step(const char* words, bool done, bool current);
 /// "3 / 12" targets.
 std::string targets_done(const Scene& scene, const DirectorStatus& status);
+/// "3 / 12" of the targets from one number on to before another.
+std::string of_count(const DirectorStatus& status, int from, int to);
 /// Percent of the present hold.
 HudRow hold_row(const DirectorStatus& status);
 ForceBar force_bar(const char* label, double value_n, const WantedForce& band, double limit_n);

@@ -1,5 +1,6 @@
 #include "app/picture/kinds/hud_parts.h"
 #include "app/picture/kinds/kind_picture.h"
+#include "app/picture/kinds/stage_parts.h"
 #include "scenarios/kinds/retract/retract_rules.h"
 
 namespace trocar {
@@ -13,9 +14,9 @@ std::vector<ForceBar> retract_bars(const SessionView& view) {
   return pull_and_grip(view, {rules.grip_low_n, rules.grip_high_n});
 }
 
-/// The height to which the tissue shall come: a ring round where the tip shall be.
-void add_goal(const SessionView& view, std::vector<SceneObject>& out) {
-  const DirectorStatus& status = view.director.status();
+}  // namespace
+
+void add_lift_goal(const DirectorStatus& status, std::vector<SceneObject>& out) {
   if (status.cue != Cue::kTake && status.cue != Cue::kLift) return;
   SceneObject ring;
   ring.shape = SceneObject::Shape::kRing;
@@ -24,8 +25,6 @@ void add_goal(const SessionView& view, std::vector<SceneObject>& out) {
   ring.X_TO.p = status.demand.goal_T;
   out.push_back(ring);
 }
-
-}  // namespace
 
 KindPicture retract_picture() {
   return {.kind = ExerciseKind::kRetract,
@@ -41,7 +40,10 @@ KindPicture retract_picture() {
                                            hold_row(status)};
               },
           .bars = retract_bars,
-          .add_objects = add_goal,
+          .add_objects =
+              [](const SessionView& view, std::vector<SceneObject>& out) {
+                add_lift_goal(view.director.status(), out);
+              },
           .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
           .telling =
               [](const SessionView& view) {

@@ -8,6 +8,7 @@
 #include "app/window/attempt/number_words.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/scoring/event_types.h"
+#include "scenarios/scoring/metrics.h"
 
 namespace trocar {
 namespace {
@@ -77,7 +78,7 @@ std::string first_touch(const Advised& a) {
 }
 
 std::string not_tried_advice(const Advised& a) {
-  if (judges_pull(a.exercise))
+  if (judges_pull(judged_part(a.exercise, a.facts.cause.metric)))
     return a.words("Try next: press the open jaws on the lit disc, close them, and lift until enough is exposed.");
   if (is_band_share(a.facts.cause.metric)) return first_touch(a);
   if (a.counts().grasped == 0) return a.words("Try next: go down with open jaws round the lit block, then close them.");
@@ -147,14 +148,15 @@ std::string scope_advice(const Advised& a, const std::string& metric) {
 
 std::string next_for(const Advised& a, const DebriefRow& row) {
   const Translator& words = a.words;
-  const std::string& m = row.metric;
+  const std::string m(plain_metric(row.metric));
+  const bool pulls = judges_pull(judged_part(a.exercise, row.metric));
   if (m == "wrong_places") return words("Try next: stop just over the lit disc, look, then go straight down.");
-  if (is_band_share(m) && judges_pull(a.exercise))
+  if (is_band_share(m) && pulls)
     return a.exercise.breathing.depth_m > 0
                ? words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.")
                : words("Try next: lift slowly until the pull is right, and keep still there.");
   if (is_band_share(m)) return in_band_advice(a);
-  if (m == "force_max_n" && judges_pull(a.exercise))
+  if (m == "force_max_n" && pulls)
     return words("Try next: lift in one slow move, and stop where the pull is right.");
   if (m == "soft_impulse_ns")
     return words("Try next: let the roll do the work, and press the point on only until it goes in.");
@@ -181,7 +183,7 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "hard_pulls")
     return words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
-  if (m == "force_max_n" || (m == "excess_events" && judges_pull(a.exercise)))
+  if (m == "force_max_n" || (m == "excess_events" && pulls))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
   if (m == "right_answers_share")
     return words("Try next: say the symbol to yourself while you hold, let the flap down, and only then tell it.");
@@ -253,11 +255,12 @@ std::string count_of_grip(const Advised& a, const DebriefRow& row) {
 /// What happened, in numbers; "" where the reason and the table say all of it.
 std::string count_of(const Advised& a, const DebriefRow& row) {
   const Translator& words = a.words;
-  const std::string& m = row.metric;
+  const std::string m(plain_metric(row.metric));
+  const bool pulls = judges_pull(judged_part(a.exercise, row.metric));
   if (m == "wrong_places")
     return words(row.raw == 1 ? "Once beside the disc." : "{0} times beside the disc.", {row.value});
   if (m == "excess_events") return count_of_force(a, row);
-  if (is_band_share(m) && judges_pull(a.exercise))
+  if (is_band_share(m) && pulls)
     return words("In the band for {0} of the holding time.", {row.value});
   if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
   if (is_window_share(m)) return count_of_grip(a, row);

@@ -154,6 +154,7 @@ std::string event_words(const Translator& words, const Event& event) {
   if (type == event_type::kBiteUndone) return words("Drawn back out");
   if (type == event_type::kNeedleDrawn) return words("Needle drawn through");
   if (type == event_type::kNeedleLost) return words("Needle dropped");
+  if (type == event_type::kStageBegun) return words("Stage begun");
   if (type == event_type::kStrandLifted) return words("Strand lifted");
   if (type == event_type::kStrandDivided) return words("Strand divided");
   if (type == event_type::kUnsafeCurrent) return words("Unsafe current");

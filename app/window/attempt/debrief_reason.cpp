@@ -77,7 +77,8 @@ std::string undone_words(const Translator& words, const AttemptResult& result, c
 std::string not_tried_words(const Translator& words, const DebriefRow& row, const EventCounts& counts,
                             const Exercise& exercise) {
   const std::vector<std::string> part{words.made(row.subscore)};
-  if (judges_pull(exercise)) return words("Nothing was lifted far enough, so {0} cannot be judged.", part);
+  if (judges_pull(judged_part(exercise, row.metric)))
+    return words("Nothing was lifted far enough, so {0} cannot be judged.", part);
   if (is_band_share(row.metric)) return words("No disc was touched, so {0} cannot be judged.", part);
   if (is_window_share(row.metric))
     return counts.grasped == 0 ? words("No block was gripped, so {0} cannot be judged.", part)

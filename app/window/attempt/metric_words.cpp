@@ -6,17 +6,22 @@
 #include <cmath>
 #include <string_view>
 
+#include "scenarios/scoring/metrics.h"
+
 namespace trocar {
 namespace {
 
 using Names = std::initializer_list<std::string_view>;
 
-bool among(std::string_view name, Names names) { return std::find(names.begin(), names.end(), name) != names.end(); }
+/// By its plain name, whatever stage it is of.
+bool among(std::string_view name, Names names) {
+  return std::find(names.begin(), names.end(), plain_metric(name)) != names.end();
+}
 
 }  // namespace
 
 ScoreGroup group_of(const SubscoreRule& rule) {
-  const std::string& m = rule.metric;
+  const std::string m(plain_metric(rule.metric));
   if (rule.gate || among(m, {"excess_events", "critical_events", "tool_collisions", "crushed", "force_max_n",
                              "soft_force_share", "soft_impulse_ns"}))
     return ScoreGroup::kSafety;

@@ -20,7 +20,6 @@ constexpr double kLongestTug = 0.050;                    // m
 constexpr double kOver = 0.020;                          // m over the goal at which the reach ends
 constexpr double kClipLate = 0.16, kClipLook = 0.05;     // s: the eyes are that late; looking, before speed_factor
 constexpr double kQuickestClipReach = 0.15;              // s
-constexpr double kSwitchDown = 0.100, kSwitchUp = 0.35;  // s of a press of the exchange switch, to the next press
 constexpr double kTurnNominal = 30 * std::numbers::pi / 180, kTurnFloor = 0.15;  // of the aim error of turns
 constexpr int kTriesInside = 2;  // closings that failed, before drawing back to begin afresh
 
@@ -75,13 +74,7 @@ void ClipJob::leave(const Percept& percept, double dt_s, HandIntent& intent) {
 }
 
 void ClipJob::exchange(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random) {
-  since_press_s_ += dt_s;
-  intent.exchange = intent.exchange && since_press_s_ < kSwitchDown;
-  if (since_press_s_ < kSwitchUp) return;
-  if (!percept.asked_instrument || percept.instrument == *percept.asked_instrument)
-    return go(Step::kReach, percept, kOver, intent, random);
-  since_press_s_ = 0;
-  intent.exchange = true;
+  if (switch_.press(percept, dt_s, intent)) go(Step::kReach, percept, kOver, intent, random);
 }
 
 /// Plans a movement of the intent such that the seen tip would come to the goal, or over it, turned as it shall be.

@@ -6,6 +6,7 @@
 // Knows nothing but the Percept. Frame T, m, N. Thread: the hand task's, once a loop period; does not allocate.
 #pragma once
 
+#include "scenarios/hands/exchange_job.h"
 #include "scenarios/hands/hand_script.h"
 #include "scenarios/hands/hand_work.h"
 #include "scenarios/hands/minimum_jerk.h"
@@ -42,7 +43,8 @@ class ClipJob : public HandWork {
   ReachPlan plan_;
   TurnPlan turn_;
   Step step_ = Step::kWithdraw;
-  double in_step_s_ = 0, since_press_s_ = 0;
+  ExchangeSwitch switch_;
+  double in_step_s_ = 0;
   bool planned_ = false, moves_on_ = false;
   int corrections_ = 0, tries_ = 0;
 };

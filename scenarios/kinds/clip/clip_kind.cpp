@@ -45,7 +45,7 @@ std::shared_ptr<const ClipRules> read_rules(StrictTable table) {
 void read_clip(StrictTable& document, Exercise& exercise) {
   // What stands still cannot be clipped.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
+  read_surface(document, exercise);
   exercise.own = read_rules(document.table("clip"));
 }
 

@@ -16,8 +16,9 @@ namespace {
 
 using file_units::kDegrees, file_units::kMilli;
 
-std::shared_ptr<const DissectRules> read_dissect_rules(StrictTable table) {
+std::shared_ptr<const DissectRules> read_dissect_rules(StrictTable table, int strands) {
   DissectRules rules;
+  rules.strands = strands;
   std::tie(rules.bed_along_m, rules.bed_across_m) = table.pair("bed_mm", 10, 200);
   rules.bed_along_m *= kMilli;
   rules.bed_across_m *= kMilli;
@@ -41,16 +42,19 @@ std::shared_ptr<const DissectRules> read_dissect_rules(StrictTable table) {
 }
 
 void read_dissect(StrictTable& document, Exercise& exercise) {
-  if (exercise.layout.count != kDissectAims)
-    document.fail("targets", "'count' must be 8: five strands and three vessels");
   // Strands on an organ that stands still cannot be lifted, and nothing bleeds there.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
-  exercise.own = read_dissect_rules(document.table("dissect"));
+  read_surface(document, exercise);
+  exercise.own = read_dissect_rules(document.table("dissect"), static_cast<int>(exercise.ducts.size()));
+  const int vessels = exercise.layout.count - static_cast<int>(exercise.ducts.size());
+  if (exercise.ducts.empty() || vessels < 0 || vessels > kMostSpurters)
+    document.fail("targets", "'count' must be that of the strands, which are the 'ducts', and of up to three vessels");
 }
 
-void read_dissect_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel&) {
-  if (exercise.ducts.size() != kStrands) keys.table.fail("name", "the exercise needs five 'ducts': the strands");
+/// Strands are counted by themselves.
+void account_strands(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
+  account_held_targets(board, events, context);
+  context.strands_total = static_cast<int>(board.ducts_T.size());
 }
 
 }  // namespace
@@ -66,10 +70,10 @@ KindDescription dissect_kind() {
           .limits = judge_hard_force,
           .read_targets = read_places,
           .read = read_dissect,
-          .read_level = read_dissect_level,
+          .read_level = [](LevelKeys&, const Exercise&, ExerciseLevel&) {},
           .lay_out = lay_out_dissection,
           .tasks = one_task<DissectTask>,
-          .account = account_held_targets};
+          .account = account_strands};
 }
 
 }  // namespace trocar

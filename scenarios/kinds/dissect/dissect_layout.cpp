@@ -17,7 +17,7 @@ namespace trocar {
 namespace {
 
 constexpr int kBedDraws = 200, kVesselDraws = 60;
-constexpr int kColumns = 3, kRows = 2;
+constexpr int kColumns = 3, kMostRows = 2;
 constexpr int kArcPoints = 9;            // of a strand's path
 constexpr double kColumnShare = 0.4;     // of the bed's width, between two columns of strands
 constexpr double kRowShare = 0.5;        // of its length, between the two rows
@@ -44,16 +44,18 @@ class DissectionPlan {
 
   /// Adds strands and vessels to the board; false: one finds no place.
   bool fill(Board& board) {
-    std::vector<int> slots(kColumns * kRows);
+    std::vector<int> slots(static_cast<std::size_t>(kColumns * rows()));
     std::iota(slots.begin(), slots.end(), 0);
     random_.shuffle(slots);
-    for (int strand = 0; strand < kStrands; ++strand)
+    for (int strand = 0; strand < rules_.strands; ++strand)
       if (!add_strand(slots[static_cast<std::size_t>(strand)], board)) return false;
-    for (int draw = 0; draw < kVesselDraws && board.targets.size() < kDissectAims; ++draw) add_vessel(board);
-    return board.targets.size() == kDissectAims;
+    for (int draw = 0; draw < kVesselDraws && static_cast<int>(board.targets.size()) < layout_.count; ++draw)
+      add_vessel(board);
+    return static_cast<int>(board.targets.size()) == layout_.count;
   }
 
  private:
+  int rows() const { return rules_.strands > kColumns ? kMostRows : 1; }
   Eigen::Vector2d at(double along_m, double across_m) const {
     return middle_ + along_m * axes_.along + across_m * axes_.across;
   }
@@ -71,7 +73,7 @@ class DissectionPlan {
   }
 
   bool add_strand(int slot, Board& board) {
-    const double row = slot / kColumns - (kRows - 1) / 2.0, column = slot % kColumns - (kColumns - 1) / 2.0;
+    const double row = slot / kColumns - (rows() - 1) / 2.0, column = slot % kColumns - (kColumns - 1) / 2.0;
     const Eigen::Vector2d middle = at(row * kRowShare * rules_.bed_along_m + random_.either_way(kScatter),
                                       column * kColumnShare * rules_.bed_across_m + random_.either_way(kScatter));
     const Eigen::Vector2d way = Eigen::Rotation2Dd(random_.either_way(rules_.turn_rad)) * axes_.along;
@@ -104,7 +106,7 @@ class DissectionPlan {
         at(random_.either_way(rules_.bed_along_m / 2 - kEdge), random_.either_way(rules_.bed_across_m / 2 - kEdge));
     const auto top = ground(drawn);
     if (!top || !reached(*top)) return;
-    const bool crowded = std::any_of(board.targets.begin() + kStrands, board.targets.end(), [&](const Target& other) {
+    const bool crowded = std::any_of(board.targets.begin() + rules_.strands, board.targets.end(), [&](const Target& other) {
       return (other.centre_T - top->position).norm() < layout_.min_spacing_m;
     });
     if (!crowded) board.targets.push_back({top->position, top->normal, layout_.radius_m});
@@ -131,9 +133,12 @@ BedAxes bed_axes(const ExerciseLevel& level, const Mat3& R_TI_rest, const Vec3& 
 
 std::vector<BleederSetup> bleeders_of(const Exercise& exercise, const Board& board) {
   std::vector<BleederSetup> out;
+  for (std::size_t i = 0; i < exercise.stages.size(); ++i)
+    for (const BleederSetup& bleeder : bleeders_of(*exercise.stages[i].exercise, board.stages[i]))
+      out.push_back(bleeder);
   if (exercise.kind != ExerciseKind::kDissect) return out;
   const DissectRules& rules = own_rules<DissectRules>(exercise);
-  for (std::size_t i = kStrands; i < board.targets.size(); ++i)
+  for (auto i = static_cast<std::size_t>(rules.strands); i < board.targets.size(); ++i)
     out.push_back({board.targets[i].centre_T, rules.vessel_radius_m, rules.feed_m});
   return out;
 }

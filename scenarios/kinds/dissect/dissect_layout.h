@@ -15,7 +15,7 @@ namespace trocar {
 /// @throws InputError: the organ has no such place
 Board lay_out_dissection(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place);
 
-/// The vessels of the board, for its world; empty: the exercise is of another kind.
+/// The vessels of the board, for its world, those of an operation stage by stage; empty: the exercise has none.
 std::vector<BleederSetup> bleeders_of(const Exercise& exercise, const Board& board);
 
 }  // namespace trocar

@@ -11,12 +11,11 @@
 
 namespace trocar {
 
-inline constexpr int kStrands = 5, kSpurters = 3;
-inline constexpr int kDissectAims = kStrands + kSpurters;
-
-constexpr bool is_strand(int target) { return target < kStrands; }
+inline constexpr int kMostStrands = 5, kMostSpurters = 3;
+inline constexpr int kMostDissectAims = kMostStrands + kMostSpurters;
 
 struct DissectRules : KindRules {
+  int strands = kMostStrands;                ///< of the targets, the first
   double bed_along_m = 0, bed_across_m = 0;  ///< of the bed, along the strands and across them
   double span_m = 0, bow_m = 0;              ///< of a strand; how far its middle stands off the organ
   double lift_m = 0;                         ///< of the tip off the organ, at least, as a strand is divided

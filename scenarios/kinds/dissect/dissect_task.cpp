@@ -29,9 +29,9 @@ void DissectTask::begin(EventLog& log) {
 /// which may lie as far from the board's place as current seals.
 SurfacePlace DissectTask::place(const TissueFrame& frame, int target) const {
   const auto i = static_cast<std::size_t>(target);
-  if (!is_strand(target) && target - kStrands < frame.wound_count) {
+  if (!is_strand(target) && target - rules_.strands < frame.wound_count) {
     const Vec3& normal = target < frame.place_count ? frame.place[i].normal_T : targets_[i].normal_T;
-    return {frame.wound[i - kStrands].place_T, normal};
+    return {frame.wound[i - static_cast<std::size_t>(rules_.strands)].place_T, normal};
   }
   if (target < frame.place_count) return frame.place[i];
   return {targets_[i].centre_T, targets_[i].normal_T};
@@ -50,7 +50,7 @@ void DissectTask::finish(int target, EventLog& log) {
 
 void DissectTask::ask_next(EventLog& log) {
   int next = 0;
-  while (next < kDissectAims && done_[static_cast<std::size_t>(next)]) ++next;
+  while (next < aims() && done_[static_cast<std::size_t>(next)]) ++next;
   if (next == asked_) return;
   tell_current(log);
   asked_ = next;
@@ -96,13 +96,13 @@ void DissectTask::follow_current(const TaskInput& input, EventLog& log) {
 void DissectTask::follow_strands(const TissueFrame& frame, bool live, EventLog& log) {
   const std::int32_t touched = frame.touched_duct;
   hooked_ = touched == asked_;
-  if (touched >= 0 && touched < kStrands && gap_m_ >= rules_.lift_m && !lifted_[static_cast<std::size_t>(touched)]) {
+  if (touched >= 0 && touched < rules_.strands && gap_m_ >= rules_.lift_m && !lifted_[static_cast<std::size_t>(touched)]) {
     lifted_.set(static_cast<std::size_t>(touched));
     log.add(event_type::kStrandLifted, Severity::kInfo, touched, gap_m_, "m");
   }
   for (const DuctMark& mark : std::span(frame.duct_mark).first(static_cast<std::size_t>(frame.duct_mark_count))) {
     const bool parts = mark.kind == DuctMark::Kind::kCut || mark.kind == DuctMark::Kind::kTorn;
-    if (!parts || mark.duct >= kStrands || done_[static_cast<std::size_t>(mark.duct)]) continue;
+    if (!parts || mark.duct >= rules_.strands || done_[static_cast<std::size_t>(mark.duct)]) continue;
     const bool torn = mark.kind == DuctMark::Kind::kTorn || !live;
     const bool good = !torn && gap_m_ >= rules_.lift_m;
     log.add(event_type::kStrandDivided, good ? Severity::kInfo : Severity::kMinor, mark.duct, gap_m_, "m");
@@ -119,8 +119,8 @@ void DissectTask::follow_vessels(const TissueFrame& frame, EventLog& log) {
     spurting_ = true;
     log.add(event_type::kSpurts, Severity::kInfo, -1, frame.surgery.blood_ml, "mL");
   }
-  for (int vessel = 0; spurting_ && vessel < std::min(kSpurters, frame.wound_count); ++vessel) {
-    const int target = kStrands + vessel;
+  for (int vessel = 0; spurting_ && vessel < std::min(aims() - rules_.strands, frame.wound_count); ++vessel) {
+    const int target = rules_.strands + vessel;
     const auto i = static_cast<std::size_t>(target);
     if (done_[i]) continue;
     if (frame.wound[static_cast<std::size_t>(vessel)].open_vessels == 0) {

@@ -32,7 +32,7 @@ class DissectTask final : public ExerciseTask {
   DissectTask(const Exercise& exercise, const ExerciseLevel& level, const Board& board);
   void begin(EventLog& log) override;
   void update(const TaskInput& input, EventLog& log) override;
-  bool finished() const override { return asked_ >= kDissectAims; }
+  bool finished() const override { return asked_ >= aims(); }
   std::int32_t object() const override { return finished() ? -1 : asked_; }
   void describe(const TaskInput& input, DirectorStatus& status) const override;
 
@@ -47,6 +47,8 @@ class DissectTask final : public ExerciseTask {
     double safe_s = 0, unsafe_s = 0;
   };
 
+  int aims() const { return static_cast<int>(targets_.size()); }
+  bool is_strand(int target) const { return target < rules_.strands; }
   SurfacePlace place(const TissueFrame& frame, int target) const;
   void follow_current(const TaskInput& input, EventLog& log);
   void tell_current(EventLog& log);
@@ -61,10 +63,10 @@ class DissectTask final : public ExerciseTask {
   std::vector<Target> targets_;
   Vec3 centre_T_;
   std::string display_;
-  std::bitset<kDissectAims> done_, lifted_, late_;
+  std::bitset<kMostDissectAims> done_, lifted_, late_;
   int asked_ = 0, errors_ = 0;
   Current untold_;                                        ///< of the lit object
-  std::array<double, kDissectAims> near_s_{}, safe_s_{};  ///< of each object
+  std::array<double, kMostDissectAims> near_s_{}, safe_s_{};  ///< of each object
   bool spurting_ = false, perforated_ = false, hooked_ = false, beside_ = false, unsafe_ = false;
   double lit_at_s_ = 0, now_s_ = 0, gap_m_ = 0, cut_m2_ = -1;
   Told told_;

@@ -39,7 +39,7 @@ void read_find(StrictTable& document, Exercise& exercise) {
   exercise.counted_hold_s = exercise.hold_s = document.number("hold_s", 0.5, 60);
   // Tissue that stands still has no flap.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
+  read_surface(document, exercise);
   if (!document.has("sheets")) document.fail("sheets", "a 'find' exercise needs 'sheets': the first is the flap");
   FindRules rules;
   read_flap(document.table("flap"), rules);

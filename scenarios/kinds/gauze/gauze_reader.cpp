@@ -33,7 +33,7 @@ GauzeRules read_line(StrictTable table) {
 void read_gauze(StrictTable& document, Exercise& exercise) {
   // What stands still cannot be cut.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
+  read_surface(document, exercise);
   if (!document.has("sheets")) document.fail("sheets", "a 'gauze' exercise needs 'sheets': the first is the gauze");
   exercise.own = std::make_shared<const GauzeRules>(read_line(document.table("line")));
 }

@@ -38,7 +38,7 @@ std::shared_ptr<const NeedleRules> read_rules(StrictTable table) {
 void read_needle(StrictTable& document, Exercise& exercise) {
   // What stands still takes no needle.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
+  read_surface(document, exercise);
   exercise.own = read_rules(document.table("needle"));
   if (exercise.layout.count < 2 || exercise.layout.count % 2 != 0)
     document.fail("targets", "'targets': 'count' must be even: a pair has two dots");

@@ -35,7 +35,7 @@ void read_retract(StrictTable& document, Exercise& exercise) {
   exercise.counted_hold_s = exercise.hold_s = document.number("hold_s", 0.5, 120);
   // Tissue that stands still cannot be lifted.
   read_giving_tissue(document, exercise);
-  read_surface(document.table("surface"), exercise);
+  read_surface(document, exercise);
   exercise.own = read_rules(document.table("retract"));
 }
 

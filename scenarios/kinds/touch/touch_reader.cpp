@@ -15,7 +15,9 @@ void read_discs(StrictTable& table, TargetLayout& layout) {
   if (layout.min_spacing_m < 2 * layout.radius_m) table.fail("min_spacing_mm", "'min_spacing_mm' lets discs overlap");
 }
 
-void read_surface(StrictTable table, Exercise& exercise) {
+void read_surface(StrictTable& document, Exercise& exercise) {
+  if (exercise.is_stage) return;
+  StrictTable table = document.table("surface");
   exercise.surface.stiffness_n_per_m = table.number("stiffness_n_per_m", 1, 5000);
   exercise.surface.damping_s_per_m = table.number("damping_s_per_m", 0, 50);
   exercise.surface.mu_static = table.number_or("friction_static", 0, 2, 0);

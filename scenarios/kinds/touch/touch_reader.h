@@ -10,8 +10,8 @@ namespace trocar {
 
 /// [targets] of discs on an organ.
 void read_discs(StrictTable& table, TargetLayout& layout);
-/// [surface] of an organ that stands still.
-void read_surface(StrictTable table, Exercise& exercise);
+/// [surface] of an organ that stands still; a stage has its operation's.
+void read_surface(StrictTable& document, Exercise& exercise);
 /// "band_n" or "bands_n" of a level.
 void read_bands(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& level);
 

@@ -15,6 +15,7 @@ namespace trocar::dissect_layout_test {
 namespace {
 
 constexpr double kTop = 0.01;  // m of the plate
+constexpr int kStrands = kMostStrands, kSpurters = kMostSpurters, kDissectAims = kStrands + kSpurters;  // of E13
 
 Exercise bleeders_and_hook() {
   return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");

@@ -18,6 +18,7 @@ namespace trocar::dissect_task_test {
 namespace {
 
 constexpr double kStep_s = 0.01;
+constexpr int kStrands = kMostStrands, kSpurters = kMostSpurters, kDissectAims = kStrands + kSpurters;  // of E13
 constexpr double kHigh = 0.007, kLow = 0.004, kOn = 0.0;  // m of the tip off the organ
 
 Exercise shipped() { return find_exercise("E13", std::filesystem::path(TROCAR_SOURCE_DIR) / "scenarios/exercises"); }
@@ -44,6 +45,7 @@ struct Bench {
     Board out;
     out.start_T = Vec3(0, 0, 0.055);
     for (int i = 0; i < kDissectAims; ++i) out.targets.push_back({place(i), Vec3::UnitZ(), 0.003});
+    for (int i = 0; i < kStrands; ++i) out.ducts_T.push_back({place(i) - Vec3(0, 0.008, 0), place(i) + Vec3(0, 0.008, 0)});
     return out;
   }
   void step(double seconds) {
