@@ -168,9 +168,9 @@ struct Exercise;
 
 /// A part of an operation: an exercise of another kind, at a place of its own in the same region.
 struct ExerciseStage {
-  std::string name;            ///< in metrics, "<name>/<metric>"
-  Vec3 at_m = Vec3::Zero();    ///< of its region's centre from the operation's, along x and y of T
-  InstrumentKind instrument;   ///< to be in hand as it begins
+  std::string name;                          ///< in metrics, "<name>/<metric>"
+  Vec3 at_m = Vec3::Zero();                  ///< of its region's centre from the operation's, along x and y of T
+  InstrumentKind instrument;                 ///< to be in hand as it begins
   std::shared_ptr<const Exercise> exercise;  ///< without levels and rubric
 };
 

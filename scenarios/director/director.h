@@ -51,8 +51,8 @@ struct Board {
   std::vector<HiddenNodule> nodules;  ///< empty without
   /// Where the exercise's ducts run on this board, one path each; empty: as the exercise names them.
   std::vector<std::vector<Vec3>> ducts_T;
-  std::vector<Board> stages;             ///< operation: of each stage; targets and ducts are theirs, one after the other
-  double spacing_m = 0;                  ///< least distance that the targets were laid out with; 0 where none was asked
+  std::vector<Board> stages;  ///< operation: of each stage; targets and ducts are theirs, one after the other
+  double spacing_m = 0;       ///< least distance that the targets were laid out with; 0 where none was asked
   std::shared_ptr<const KindRules> own;  ///< what only its kind lays out, read with own_rules(); nullptr: nothing
 };
 

@@ -18,8 +18,8 @@ Exercise load_exercise(const std::filesystem::path& file);
 /// Same from bytes already in memory (an exercise embedded in a recording). @param file name for messages.
 Exercise parse_exercise(const std::string& text, const std::filesystem::path& file);
 
-/// A stage of an operation: the kind, [targets], [force] where it differs, [[ducts]] and what its kind asks for; the rest
-/// is the operation's. @throws InputError with line and column
+/// A stage of an operation: the kind, [targets], [force] where it differs, [[ducts]] and what its kind asks for; the
+/// rest is the operation's. @throws InputError with line and column
 Exercise read_stage(StrictTable& table, const Exercise& operation, const std::vector<std::string>& kinds);
 
 /// Every *.toml of a folder, ordered by number ("E02"). @throws InputError from the first bad file, or when the folder

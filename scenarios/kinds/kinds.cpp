@@ -26,7 +26,7 @@ namespace trocar {
 
 const std::vector<KindDescription>& all_kinds() {
   static const std::vector<KindDescription> kinds{
-      reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(), pegs_kind(),   wire_kind(),   find_kind(),
+      reach_kind(),   touch_kind(),   grasp_kind(), camera_kind(), pegs_kind(),   wire_kind(),    find_kind(),
       retract_kind(), palpate_kind(), clip_kind(),  gauze_kind(),  needle_kind(), dissect_kind(), operation_kind()};
   return kinds;
 }

@@ -84,7 +84,7 @@ inline constexpr EventType kAll[] = {
     kClipSet,       kClipWasted,   kWrongStructure, kDivided,       kCutTooSoon,     kSnip,         kOffLine,
     kPulledHard,    kGauzeTorn,    kNeedleGripped,  kBiteBegun,     kBiteThrough,    kBiteUndone,   kNeedleDrawn,
     kNeedleLost,    kStrandLifted, kStrandDivided,  kCurrentUsed,   kUnsafeCurrent,  kSpurts,       kSealed,
-    kSealedLate,    kPerforated,   kStageBegun,    kMarked,         kMessage};
+    kSealedLate,    kPerforated,   kStageBegun,     kMarked,        kMessage};
 
 }  // namespace event_type
 }  // namespace trocar

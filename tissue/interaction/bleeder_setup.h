@@ -1,4 +1,5 @@
-// A vessel that opens on an organ once none of its ducts that carry nothing, its strands, is whole any more. T, SI. Thread: plain values.
+// A vessel that opens on an organ once none of its ducts that carry nothing, its strands, is whole any more. T, SI.
+// Thread: plain values.
 #pragma once
 
 #include "haptics/quantities.h"

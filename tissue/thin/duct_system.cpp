@@ -501,9 +501,8 @@ bool DuctSystem::whole(const Duct& duct) {
 }
 
 bool DuctSystem::any_strand_whole() const {
-  return std::any_of(ducts_.begin(), ducts_.end(), [](const Duct& duct) {
-    return duct.setup.content == DuctContent::kNothing && whole(duct);
-  });
+  return std::any_of(ducts_.begin(), ducts_.end(),
+                     [](const Duct& duct) { return duct.setup.content == DuctContent::kNothing && whole(duct); });
 }
 
 std::vector<DuctMark> DuctSystem::marks() const {

@@ -39,7 +39,7 @@ struct SheetSystemOptions {
   double clip_n_per_m = 3000;    ///< of each node that hangs in a frame (a choice)
   double frame_strain = 0.015;   ///< of a sheet as it is spread there (a choice)
   double snip_m = 0.005;         ///< that a closing cuts at most there (training.md 5.2, E07)
-  double bite_n = 0.1;           ///< with which tips must press there, or it slips off them (a choice)
+  double bite_n = 0.05;          ///< with which tips must press there, or it slips off them (a choice)
   SheetGripOptions grip = {};
   ScissorsOptions scissors = {};
 };
@@ -116,11 +116,11 @@ class SheetSystem {
     std::size_t lying = 0;                    ///< first spring of the last step that is of the organ beneath
     std::vector<std::int32_t> on_organ = {};  ///< nodes of the springs from there on
     // In a frame:
-    std::vector<Vec3> drawn_T = {};            ///< of each node, where it was as the sheet was spread
-    std::vector<SheetEdge> cut_edges = {};     ///< so far: one alone parts nothing until the next one meets it
-    double pressed_n = 0;                      ///< of the tips, now
-    Vec3 sunk_T = Vec3::Zero();                ///< from the tips, that a contact lets sink in, up to what they press on
-    int bite_steps = 1000;                     ///< since they pressed enough
+    std::vector<Vec3> drawn_T = {};         ///< of each node, where it was as the sheet was spread
+    std::vector<SheetEdge> cut_edges = {};  ///< so far: one alone parts nothing until the next one meets it
+    double pressed_n = 0;                   ///< of the tips, now
+    Vec3 sunk_T = Vec3::Zero();             ///< from the tips, that a contact lets sink in, up to what they press on
+    int bite_steps = 1000;                  ///< since they pressed enough
     Closing closing = {};
     bool snipped = false;  ///< blades have pressed on it and not been opened since
     bool still = false;    ///< nothing moves it: no step is made

@@ -21,10 +21,10 @@ KindPicture dissect_picture();
 KindPicture operation_picture();
 
 const KindPicture& picture_of(const Exercise& exercise) {
-  static const std::vector<KindPicture> pictures{reach_picture(),   touch_picture(), grasp_picture(), camera_picture(),
-                                                 pegs_picture(),    wire_picture(),  find_picture(),  retract_picture(),
-                                                 palpate_picture(), clip_picture(),  gauze_picture(), needle_picture(),
-                                                 dissect_picture(), operation_picture()};
+  static const std::vector<KindPicture> pictures{
+      reach_picture(), touch_picture(),  grasp_picture(),   camera_picture(),   pegs_picture(),
+      wire_picture(),  find_picture(),   retract_picture(), palpate_picture(),  clip_picture(),
+      gauze_picture(), needle_picture(), dissect_picture(), operation_picture()};
   return *std::find_if(pictures.begin(), pictures.end(),
                        [&](const KindPicture& picture) { return picture.kind == exercise.kind; });
 }

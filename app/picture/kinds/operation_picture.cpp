@@ -22,8 +22,7 @@ std::vector<StageView> stages_of(const Scene& scene, const DirectorStatus& statu
   const Exercise& exercise = scene.setup.exercise;
   for (const StageRange& range : stage_ranges(exercise, scene.board)) {
     const auto i = static_cast<std::size_t>(range.stage);
-    out.push_back(
-        {exercise.stages[i], scene.level.stages[i], scene.board.stages[i], range, status_of(range, status)});
+    out.push_back({exercise.stages[i], scene.level.stages[i], scene.board.stages[i], range, status_of(range, status)});
   }
   return out;
 }
@@ -91,22 +90,22 @@ Eigen::AlignedBox3d all_places(const Scene& scene) {
 }  // namespace
 
 KindPicture operation_picture() {
-  return {.kind = ExerciseKind::kOperation,
-          .steps =
-              [](const RunStage& run) {
-                return std::vector{
-                    hud_step("Retract, dissect, clip and cut, detach", run.done, run.started && !run.done)};
-              },
-          .rows = stage_rows,
-          .bars = bars_of_stage,
-          .add_objects = add_of_stages,
-          .work = all_places,
-          .telling =
-              [](const SessionView& view) {
-                const DirectorStatus& status = view.director.status();
-                return status.cue == Cue::kSever && view.tissue && view.tissue->touched_duct >= 0;
-              },
-          .add_marks = keep_discs};
+  return {
+      .kind = ExerciseKind::kOperation,
+      .steps =
+          [](const RunStage& run) {
+            return std::vector{hud_step("Retract, dissect, clip and cut, detach", run.done, run.started && !run.done)};
+          },
+      .rows = stage_rows,
+      .bars = bars_of_stage,
+      .add_objects = add_of_stages,
+      .work = all_places,
+      .telling =
+          [](const SessionView& view) {
+            const DirectorStatus& status = view.director.status();
+            return status.cue == Cue::kSever && view.tissue && view.tissue->touched_duct >= 0;
+          },
+      .add_marks = keep_discs};
 }
 
 }  // namespace trocar

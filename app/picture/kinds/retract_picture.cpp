@@ -40,10 +40,8 @@ KindPicture retract_picture() {
                                            hold_row(status)};
               },
           .bars = retract_bars,
-          .add_objects =
-              [](const SessionView& view, std::vector<SceneObject>& out) {
-                add_lift_goal(view.director.status(), out);
-              },
+          .add_objects = [](const SessionView& view,
+                            std::vector<SceneObject>& out) { add_lift_goal(view.director.status(), out); },
           .work = [](const Scene&) { return Eigen::AlignedBox3d(); },
           .telling =
               [](const SessionView& view) {

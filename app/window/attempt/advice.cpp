@@ -156,8 +156,7 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
                ? words("Try next: lift slowly until the pull is right, then follow the breath with a loose hand.")
                : words("Try next: lift slowly until the pull is right, and keep still there.");
   if (is_band_share(m)) return in_band_advice(a);
-  if (m == "force_max_n" && pulls)
-    return words("Try next: lift in one slow move, and stop where the pull is right.");
+  if (m == "force_max_n" && pulls) return words("Try next: lift in one slow move, and stop where the pull is right.");
   if (m == "soft_impulse_ns")
     return words("Try next: let the roll do the work, and press the point on only until it goes in.");
   if (m == "entry_error_m")
@@ -260,8 +259,7 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "wrong_places")
     return words(row.raw == 1 ? "Once beside the disc." : "{0} times beside the disc.", {row.value});
   if (m == "excess_events") return count_of_force(a, row);
-  if (is_band_share(m) && pulls)
-    return words("In the band for {0} of the holding time.", {row.value});
+  if (is_band_share(m) && pulls) return words("In the band for {0} of the holding time.", {row.value});
   if (is_band_share(m)) return words("In the band for {0} of the pressing time.", {row.value});
   if (is_window_share(m)) return count_of_grip(a, row);
   if (m == "crushed") return words(row.raw == 1 ? "One block crushed." : "{0} blocks crushed.", {row.value});

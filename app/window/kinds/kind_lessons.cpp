@@ -21,9 +21,9 @@ KindLesson needle_lesson();
 KindLesson operation_lesson();
 
 const std::vector<KindLesson>& all_lessons() {
-  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(), grasp_lesson(), camera_lesson(),
-                                               pegs_lesson(),    wire_lesson(),  find_lesson(),  retract_lesson(),
-                                               palpate_lesson(), clip_lesson(),  gauze_lesson(), needle_lesson(),
+  static const std::vector<KindLesson> lessons{reach_lesson(),   touch_lesson(),    grasp_lesson(), camera_lesson(),
+                                               pegs_lesson(),    wire_lesson(),     find_lesson(),  retract_lesson(),
+                                               palpate_lesson(), clip_lesson(),     gauze_lesson(), needle_lesson(),
                                                dissect_lesson(), operation_lesson()};
   return lessons;
 }

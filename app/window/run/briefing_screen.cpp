@@ -139,8 +139,18 @@ void BriefingScreen::limits(Ui& ui, PracticeModel& model) const {
 void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
   const Translator& w = model.words();
   ui.heading(w("What is measured"));
-  for (const LessonMeasure& m : measures_) ui.pair(m.gate.empty() ? m.name : w("{0} (safety)", {m.name}), m.weight);
-  const double pass = find_level(model.exercise(), model.level).rubric.pass_at;
+  const Exercise& exercise = model.exercise();
+  const Rubric& rubric = find_level(exercise, model.level).rubric;
+  for (const ExerciseStage& stage : exercise.stages) {  // each is more than a line has room for
+    double weight = 0;
+    for (const SubscoreRule& rule : rubric.subscores)
+      if (&judged_part(exercise, rule.metric) == stage.exercise.get()) weight += rule.weight;
+    ui.pair(w("{0} (safety)", {w(stage.exercise->title)}), w.number(100 * weight, 0) + " %");
+  }
+  for (const LessonMeasure& m : measures_)
+    if (&judged_part(exercise, m.metric) == &exercise)
+      ui.pair(m.gate.empty() ? m.name : w("{0} (safety)", {m.name}), m.weight);
+  const double pass = rubric.pass_at;
   ui.text(w("Pass from {0} of 100. M explains each measure.", {w.number(pass, 0)}), Ink::kDim);
 }
 

@@ -7,19 +7,19 @@
 namespace trocar {
 namespace {
 
-constexpr double kClipOpenJaw = 0.012;                   // m: the structure lies freely between the pads
-constexpr double kNameJaw = 0.007;                       // m, to name it: a neighbour stays outside
-constexpr double kClearOf = 0.75;                        // of that, seen: nothing is held any more
-constexpr double kStaysFor = 4;                          // s, before speed_factor, of naming in vain
-constexpr double kClipJawSpeed = 0.030;                  // m/s of free opening and closing
-constexpr double kClipShutJaw = -0.016;                  // m of intent: the fingers press beyond what they hold
-constexpr double kShutFor = 0.15;                        // s
-constexpr double kTugFor = 0.2;                          // s at the end of a pull
-constexpr double kPulledStiffness = 70;                  // N/m of a structure, as a person expects it
-constexpr double kLongestTug = 0.050;                    // m
-constexpr double kOver = 0.020;                          // m over the goal at which the reach ends
-constexpr double kClipLate = 0.16, kClipLook = 0.05;     // s: the eyes are that late; looking, before speed_factor
-constexpr double kQuickestClipReach = 0.15;              // s
+constexpr double kClipOpenJaw = 0.012;                // m: the structure lies freely between the pads
+constexpr double kNameJaw = 0.007;                    // m, to name it: a neighbour stays outside
+constexpr double kClearOf = 0.75;                     // of that, seen: nothing is held any more
+constexpr double kStaysFor = 4;                       // s, before speed_factor, of naming in vain
+constexpr double kClipJawSpeed = 0.030;               // m/s of free opening and closing
+constexpr double kClipShutJaw = -0.016;               // m of intent: the fingers press beyond what they hold
+constexpr double kShutFor = 0.15;                     // s
+constexpr double kTugFor = 0.2;                       // s at the end of a pull
+constexpr double kPulledStiffness = 70;               // N/m of a structure, as a person expects it
+constexpr double kLongestTug = 0.050;                 // m
+constexpr double kOver = 0.020;                       // m over the goal at which the reach ends
+constexpr double kClipLate = 0.16, kClipLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
+constexpr double kQuickestClipReach = 0.15;           // s
 constexpr double kTurnNominal = 30 * std::numbers::pi / 180, kTurnFloor = 0.15;  // of the aim error of turns
 constexpr int kTriesInside = 2;  // closings that failed, before drawing back to begin afresh
 

@@ -106,9 +106,9 @@ class DissectionPlan {
         at(random_.either_way(rules_.bed_along_m / 2 - kEdge), random_.either_way(rules_.bed_across_m / 2 - kEdge));
     const auto top = ground(drawn);
     if (!top || !reached(*top)) return;
-    const bool crowded = std::any_of(board.targets.begin() + rules_.strands, board.targets.end(), [&](const Target& other) {
-      return (other.centre_T - top->position).norm() < layout_.min_spacing_m;
-    });
+    const bool crowded = std::any_of(
+        board.targets.begin() + rules_.strands, board.targets.end(),
+        [&](const Target& other) { return (other.centre_T - top->position).norm() < layout_.min_spacing_m; });
     if (!crowded) board.targets.push_back({top->position, top->normal, layout_.radius_m});
   }
 

@@ -96,7 +96,8 @@ void DissectTask::follow_current(const TaskInput& input, EventLog& log) {
 void DissectTask::follow_strands(const TissueFrame& frame, bool live, EventLog& log) {
   const std::int32_t touched = frame.touched_duct;
   hooked_ = touched == asked_;
-  if (touched >= 0 && touched < rules_.strands && gap_m_ >= rules_.lift_m && !lifted_[static_cast<std::size_t>(touched)]) {
+  if (touched >= 0 && touched < rules_.strands && gap_m_ >= rules_.lift_m &&
+      !lifted_[static_cast<std::size_t>(touched)]) {
     lifted_.set(static_cast<std::size_t>(touched));
     log.add(event_type::kStrandLifted, Severity::kInfo, touched, gap_m_, "m");
   }

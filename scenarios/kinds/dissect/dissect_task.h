@@ -65,7 +65,7 @@ class DissectTask final : public ExerciseTask {
   std::string display_;
   std::bitset<kMostDissectAims> done_, lifted_, late_;
   int asked_ = 0, errors_ = 0;
-  Current untold_;                                        ///< of the lit object
+  Current untold_;                                            ///< of the lit object
   std::array<double, kMostDissectAims> near_s_{}, safe_s_{};  ///< of each object
   bool spurting_ = false, perforated_ = false, hooked_ = false, beside_ = false, unsafe_ = false;
   double lit_at_s_ = 0, now_s_ = 0, gap_m_ = 0, cut_m2_ = -1;

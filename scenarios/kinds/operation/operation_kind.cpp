@@ -72,8 +72,8 @@ void read_operation_level(LevelKeys& keys, const Exercise& exercise, ExerciseLev
     const ExerciseStage& stage = exercise.stages[i];
     take_common(level, stage, level.stages[i]);
     keys.table.allow(stage.name);
-    StrictTable own = keys.table.has(stage.name) ? keys.table.table(stage.name)
-                                                 : StrictTable::parse("", exercise.file.string());
+    StrictTable own =
+        keys.table.has(stage.name) ? keys.table.table(stage.name) : StrictTable::parse("", exercise.file.string());
     LevelKeys own_keys{own, keys.derived};
     kind_of(*stage.exercise).read_level(own_keys, *stage.exercise, level.stages[i]);
     own.finish();

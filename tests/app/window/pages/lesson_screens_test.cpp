@@ -84,9 +84,9 @@ TEST_F(LessonScreens, CourseIsWalkedByArrowsAndEnterOpensTheBriefing) {
   tap(kKeyUp);
   EXPECT_EQ(model_->exercise_id + model_->level, "reach-and-orientexam");
   tap(kKeyEnd);
-  EXPECT_EQ(model_->exercise_id + model_->level, "bleeders-and-hookexam");
+  EXPECT_EQ(model_->exercise_id + model_->level, "mini-cholecystectomyexam");
   tap(kKeyDown);
-  EXPECT_EQ(model_->exercise_id + model_->level, "bleeders-and-hookexam") << "nothing below the last";
+  EXPECT_EQ(model_->exercise_id + model_->level, "mini-cholecystectomyexam") << "nothing below the last";
   tap(kKeyHome);
   tap(kKeyEnter);
   EXPECT_EQ(loop_->here(), ScreenName::kBriefing);

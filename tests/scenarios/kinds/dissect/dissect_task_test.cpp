@@ -45,7 +45,8 @@ struct Bench {
     Board out;
     out.start_T = Vec3(0, 0, 0.055);
     for (int i = 0; i < kDissectAims; ++i) out.targets.push_back({place(i), Vec3::UnitZ(), 0.003});
-    for (int i = 0; i < kStrands; ++i) out.ducts_T.push_back({place(i) - Vec3(0, 0.008, 0), place(i) + Vec3(0, 0.008, 0)});
+    for (int i = 0; i < kStrands; ++i)
+      out.ducts_T.push_back({place(i) - Vec3(0, 0.008, 0), place(i) + Vec3(0, 0.008, 0)});
     return out;
   }
   void step(double seconds) {

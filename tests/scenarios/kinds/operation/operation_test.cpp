@@ -182,7 +182,7 @@ TEST(Operation, WhatIsCutBeforeItsStageIsJudgedOnceThatBegins) {
   Bench bench;
   bench.retract();
   bench.frame.duct_mark[static_cast<std::size_t>(bench.frame.duct_mark_count++)] = {.kind = DuctMark::Kind::kCut,
-                                                                                   .duct = kTriangle};
+                                                                                    .duct = kTriangle};
   bench.step(0.1);
   for (int strand = 0; strand < kTriangle; ++strand) bench.divide(strand);
   bench.step(0.1);
