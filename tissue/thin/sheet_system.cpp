@@ -12,20 +12,19 @@
 namespace trocar {
 namespace {
 
-constexpr double kEarth = 9.81;        // m/s2
-constexpr double kOpenBlades = 0.003;  // m from which on a sheet can come between them (a choice)
-constexpr double kCutReach = 0.9;      // of an edge: how far from the blades' line the cut runs
-constexpr double kResistBlock = 500;   // N/m of what blades cut, about its force
-constexpr double kBurnReach = 0.8;     // of an edge, round the hook's tip
-constexpr double kMayTouch = 0.002;    // m over the organ from which a node may come to lie on it within a step
-constexpr double kNoSheetDrag = 1e-6;  // N
-constexpr int kSearch = 12;            // vertices of the organ that a node may pass in a step
-constexpr double kTipsOver = 0.006;    // m beyond the tips, in which what they press on still is: their roundness
-constexpr double kCloses = 0.9;        // of how far they stood open, from which on blades are closing
-constexpr double kNarrows = 0.0002;    // m: blades that narrow by less stand still (a choice)
-constexpr int kStandSteps = 25;        // for so long (a choice)
-constexpr int kBiteSteps = 10;         // for which a press counts on: closing tips wander on what they press
-constexpr int kCaughtSteps = 40;       // the same of what closing blades have caught: loose, it backs away from them
+constexpr double kEarth = 9.81;            // m/s2
+constexpr double kOpenBlades = 0.003;      // m from which on a sheet can come between them (a choice)
+constexpr double kCutReach = 0.9;          // of an edge: how far from the blades' line the cut runs
+constexpr double kResistBlock = 500;       // N/m of what blades cut, about its force
+constexpr double kBurnReach = 0.8;         // of an edge, round the hook's tip
+constexpr double kMayTouch = 0.002;        // m over the organ from which a node may come to lie on it within a step
+constexpr double kNoSheetDrag = 1e-6;      // N
+constexpr int kSearch = 12;                // vertices of the organ that a node may pass in a step
+constexpr double kTipsOver = 0.006;        // m beyond the tips, in which what they press on still is: their roundness
+constexpr double kCloses = 0.9;            // of how far they stood open, from which on blades are closing
+constexpr double kNarrows = 0.0002;        // m: blades that narrow by less stand still (a choice)
+constexpr int kStandSteps = 25;            // for so long (a choice)
+constexpr int kBiteSteps = 10;             // for which a press counts on: closing tips wander on what they press
 constexpr double kSpreadTolerance = 2e-6;  // m, of a sheet in a frame: it is seen, and pressed by soft touches alone
 constexpr double kRimStrip = 0.004;        // m: so narrow a strip between a cut and the rim parts with it (a choice)
 constexpr std::size_t kCrumb = 20;         // triangles: so small a piece stays where it hangs
@@ -368,10 +367,9 @@ void SheetSystem::use_tips(std::size_t sheet, const StylusState& stylus, bool sc
   const ScissorsOptions& o = options_.scissors;
   const double now_m = stylus.jaw_opening_m;
   of.bite_steps = of.pressed_n >= options_.bite_n ? 0 : of.bite_steps + 1;
-  const bool bites = of.bite_steps <= (of.closing.caught ? kCaughtSteps : kBiteSteps);
   // Blades that have cut it, and are not off it before they open, have closed on nothing else.
-  of.snipped = scissors && (bites || (of.snipped && now_m < kOpenBlades));
-  if (!scissors || !bites) {
+  of.snipped = scissors && (of.bite_steps <= kBiteSteps || (of.snipped && now_m < kOpenBlades));
+  if (!scissors || of.bite_steps > kBiteSteps) {
     of.closing = {};
     return;
   }

@@ -39,7 +39,7 @@ struct SheetSystemOptions {
   double clip_n_per_m = 3000;    ///< of each node that hangs in a frame (a choice)
   double frame_strain = 0.015;   ///< of a sheet as it is spread there (a choice)
   double snip_m = 0.005;         ///< that a closing cuts at most there (training.md 5.2, E07)
-  double bite_n = 0.05;          ///< with which tips must press there, or it slips off them (a choice)
+  double bite_n = 0.1;           ///< with which tips must press there, or it slips off them (a choice)
   SheetGripOptions grip = {};
   ScissorsOptions scissors = {};
 };

@@ -155,25 +155,11 @@ TEST(GauzeFrame, BladesThatStandHalfClosedOrOpenAgainCutWhereTheyCloseThen) {
   }
 }
 
-TEST(GauzeFrame, LooseGauzeThatBacksAwayFromClosingBladesIsCut) {
-  Gauze gauze;
-  for (int i = 0; i < 20; ++i) gauze.step(0, 0);
-  for (double o = 0.001; o <= 0.008; o += 0.001) gauze.step(o, 0.06);
-  gauze.step(0.006, 0.06);
-  for (double o = 0.006; o > -0.001; o -= 0.0003) gauze.step(o, 0);
-  EXPECT_EQ(gauze.frame().sheet_cut_count, 1);
-  for (double o = 0.001; o <= 0.008; o += 0.001) gauze.step(o, 0.06);
-  gauze.step(0.006, 0.06);
-  for (int i = 0; i < 45; ++i) gauze.step(0.006 - 0.0001 * i, 0);
-  for (double o = 0.001; o > -0.001; o -= 0.0003) gauze.step(o, 0);
-  EXPECT_EQ(gauze.frame().sheet_cut_count, 1) << "not what was left long before they are shut";
-}
-
 TEST(GauzeFrame, TipsThatDoNotPressOrHardlyOpenCutNothing) {
   Gauze gauze;
   for (int i = 0; i < 20; ++i) gauze.step(0, 0);
   gauze.close(0);
-  gauze.close(0.03);
+  gauze.close(0.05);
   for (double o = 0; o < 0.0025; o += 0.0005) gauze.step(o, 0.5);
   gauze.step(0, 0.5);
   EXPECT_EQ(gauze.frame().sheet_cut_count, 0);
