@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "scenarios/kinds/kind.h"
+
 namespace trocar {
 
 std::string hud_number(const char* format, double value) {

@@ -12,6 +12,7 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/operation/stage_range.h"
 #include "scenarios/scoring/metrics.h"
+#include "tissue/mesh/surface/triangle_surface.h"
 
 namespace trocar::operation_test {
 namespace {
