@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "app/picture/attempt/attempt_scene.h"
 #include "app/window/attempt/number_words.h"
@@ -145,7 +146,7 @@ void BriefingScreen::measures(Ui& ui, PracticeModel& model) const {
     double weight = 0;
     for (const SubscoreRule& rule : rubric.subscores)
       if (&judged_part(exercise, rule.metric) == stage.exercise.get()) weight += rule.weight;
-    ui.pair(w("{0} (safety)", {w(stage.exercise->title)}), w.number(100 * weight, 0) + " %");
+    ui.pair(w("{0} (safety)", {w(stage.exercise->title)}), w("{0} %", {brief(w, std::round(1000 * weight) / 10)}));
   }
   for (const LessonMeasure& m : measures_)
     if (&judged_part(exercise, m.metric) == &exercise)
