@@ -1,6 +1,9 @@
 #include "scenarios/director/exercise_task.h"
 
+#include <array>
 #include <cstdio>
+
+#include "haptics/contact/instrument.h"
 
 namespace trocar {
 namespace {
@@ -25,6 +28,13 @@ void say(DirectorStatus& status, const std::string& message, const std::string& 
   status.message = message;
   status.hint = hint;
   status.warning = warning;
+}
+
+void say_take(DirectorStatus& status, InstrumentKind instrument) {
+  constexpr std::array<const char*, kInstruments.size()> kTake{
+      "Take the probe",        "Take the grasper", "Take the scissors",     "Take the hook",
+      "Take the clip applier", "Take the suction", "Take the needle driver"};
+  say(status, kTake[static_cast<std::size_t>(instrument)], "Draw back and exchange the instrument.");
 }
 
 bool force_shown(const std::string& display, bool outside) {

@@ -58,6 +58,9 @@ class ExerciseTask {
 /// Sets message, hint and warning.
 void say(DirectorStatus& status, const std::string& message, const std::string& hint, bool warning = false);
 
+/// The same, that another instrument is to be taken in hand.
+void say_take(DirectorStatus& status, InstrumentKind instrument);
+
 /// Is a measured force shown now? @param display always | band | after. @param outside the wanted band, while it
 /// matters.
 bool force_shown(const std::string& display, bool outside);

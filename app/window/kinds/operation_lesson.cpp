@@ -43,7 +43,8 @@ KindLesson operation_lesson() {
           .steps = operation_steps,
           .add_limits = add_operation_limits,
           .display = {words("Take the grasper"), words("Take the hook"), words("Take the clip applier"),
-                      words("Take the scissors"), words("Draw back and exchange the instrument."),
+                      words("Take the scissors"), words("Take the probe"), words("Take the suction"),
+                      words("Take the needle driver"), words("Draw back and exchange the instrument."),
                       words("Retract, dissect, clip and cut, detach"), words("Retract"), words("Free the triangle"),
                       words("Clip and cut"), words("Detach"), words("Mistakes")}};
 }

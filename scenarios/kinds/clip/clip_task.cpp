@@ -223,10 +223,7 @@ void ClipTask::describe_message(const StylusState& stylus, double now_s, Directo
   if (told_.at_s >= 0 && now_s - told_.at_s < kToldFor) return say(status, told_.message, told_.hint, true);
   const ClipAim aim = clip_aim(asked_);
   const StructureWords& words = kWords[static_cast<std::size_t>(aim.structure)];
-  if (!in_hand(stylus, *status.demand.instrument)) {
-    const char* const takes[] = {"Take the grasper", "Take the clip applier", "Take the scissors"};
-    return say(status, takes[static_cast<int>(aim.step)], "Draw back and exchange the instrument.");
-  }
+  if (!in_hand(stylus, *status.demand.instrument)) return say_take(status, *status.demand.instrument);
   switch (aim.step) {
     case ClipStep::kName:
       if (touches_asked_) return say(status, "Good - hold", "Stay on it.");

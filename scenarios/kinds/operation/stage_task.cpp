@@ -1,25 +1,8 @@
 #include "scenarios/kinds/operation/stage_task.h"
 
-#include <string>
+#include <utility>
 
 namespace trocar {
-namespace {
-
-const char* take_words(InstrumentKind instrument) {
-  switch (instrument) {
-    case InstrumentKind::kGrasper:
-      return "Take the grasper";
-    case InstrumentKind::kHook:
-      return "Take the hook";
-    case InstrumentKind::kClipApplier:
-      return "Take the clip applier";
-    default:
-      return "Take the scissors";
-  }
-}
-
-}  // namespace
-
 StageTask::StageTask(const Exercise& operation, const StageRange& range, std::unique_ptr<ExerciseTask> part)
     : range_(range),
       instruments_(operation.instruments),
@@ -67,7 +50,7 @@ void StageTask::describe(const TaskInput& input, DirectorStatus& status) const {
   if (instruments_[static_cast<std::size_t>(input.stylus.instrument)] == instrument_) return;
   status.cue = Cue::kExchange;
   status.demand.instrument = instrument_;
-  say(status, take_words(instrument_), "Draw back and exchange the instrument.");
+  say_take(status, instrument_);
 }
 
 }  // namespace trocar

@@ -33,6 +33,20 @@ TriangleSurface liver_like() { return bumpy_ellipsoid(Vec3(0.11, 0.07, 0.09), 39
 
 TriangleSurface gallbladder_like() { return bumpy_ellipsoid(Vec3(0.016, 0.015, 0.035), 20, 0.0); }
 
+TriangleSurface plate(double edge, double top_m) {
+  TriangleSurface out;
+  const int n = static_cast<int>(std::lround(edge / 0.002));
+  const auto at = [n](int i, int j) { return i * (n + 1) + j; };
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) out.vertices.push_back({edge * i / n - edge / 2, edge * j / n - edge / 2, top_m});
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return out;
+}
+
 TriangleSurface box(const Vec3& size) {
   TriangleSurface surface;
   for (int i = 0; i < 8; ++i)

@@ -21,27 +21,12 @@ Exercise bleeders_and_hook() {
   return find_exercise("bleeders-and-hook", std::string(TROCAR_SOURCE_DIR) + "/scenarios/exercises");
 }
 
-/// A plate with a vertex every 2 mm on its top.
-TriangleSurface plate(double edge) {
-  TriangleSurface out;
-  const int n = static_cast<int>(std::lround(edge / 0.002));
-  const auto at = [n](int i, int j) { return i * (n + 1) + j; };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) out.vertices.push_back({edge * i / n - edge / 2, edge * j / n - edge / 2, kTop});
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return out;
-}
-
 Mat3 pointing_down() { return Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix(); }
 
 TEST(DissectLayout, EveryBoardHasFiveStrandsAcrossTheFootAndThreeVesselsApart) {
   const Exercise exercise = bleeders_and_hook();
   const DissectRules& rules = own_rules<DissectRules>(exercise);
-  const TriangleSurface organ = plate(0.12);
+  const TriangleSurface organ = plate(0.12, kTop);
   for (const ExerciseLevel& level : exercise.levels) {
     Mat3 R = pointing_down();
     if (level.mapping == Mapping::kFulcrum)
@@ -80,7 +65,7 @@ TEST(DissectLayout, EveryBoardHasFiveStrandsAcrossTheFootAndThreeVesselsApart) {
 
 TEST(DissectLayout, IsDrawnByTheBoardNumberAlone) {
   const Exercise exercise = bleeders_and_hook();
-  const TriangleSurface organ = plate(0.12);
+  const TriangleSurface organ = plate(0.12, kTop);
   const BoardPlace place{organ, nullptr, pointing_down()};
   const auto ducts = [&](int board) { return lay_out_dissection(exercise, exercise.levels[0], board, place).ducts_T; };
   EXPECT_EQ(ducts(3), ducts(3));
@@ -89,7 +74,7 @@ TEST(DissectLayout, IsDrawnByTheBoardNumberAlone) {
 
 TEST(DissectLayout, SaysWhereTheOrganIsTooSmall) {
   const Exercise exercise = bleeders_and_hook();
-  const TriangleSurface organ = plate(0.02);
+  const TriangleSurface organ = plate(0.02, kTop);
   EXPECT_THROW(lay_out_dissection(exercise, exercise.levels[0], 0, {organ, nullptr, pointing_down()}), InputError);
 }
 

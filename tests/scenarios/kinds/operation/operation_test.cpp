@@ -12,7 +12,7 @@
 #include "scenarios/kinds/kind.h"
 #include "scenarios/kinds/operation/stage_range.h"
 #include "scenarios/scoring/metrics.h"
-#include "tissue/mesh/surface/triangle_surface.h"
+#include "tests/scenarios/support/test_organs.h"
 
 namespace trocar::operation_test {
 namespace {
@@ -22,24 +22,8 @@ const std::filesystem::path kFile =
 constexpr double kStep_s = 0.01, kTop = 0.01;
 constexpr int kRetracts = 2, kTriangle = 3;
 
-/// A plate with a vertex every 2 mm on its top.
-TriangleSurface plate() {
-  TriangleSurface out;
-  constexpr int n = 80;
-  constexpr double edge = 0.16;
-  const auto at = [](int i, int j) { return i * (n + 1) + j; };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) out.vertices.push_back({edge * i / n - edge / 2, edge * j / n - edge / 2, kTop});
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return out;
-}
-
 Board laid_out(const Exercise& exercise, const ExerciseLevel& level, int board = 0) {
-  const TriangleSurface organ = plate();
+  const TriangleSurface organ = plate(0.16, kTop);
   const Mat3 down = Eigen::AngleAxisd(M_PI, Vec3::UnitX()).toRotationMatrix();
   return kind_of(exercise).lay_out(exercise, level, board, {organ, nullptr, down});
 }
