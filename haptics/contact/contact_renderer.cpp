@@ -49,7 +49,7 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   contacts_.topology = patch.topology;
   contacts_.count = 0;
   stored_j_ = 0;
-  glide_.pulled(Vec3::Zero());
+  glide_.pulled(Vec3::Zero(), X_TI);
   ContactResult result = law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
   if (patch.hold.stiffness_n_per_m > 0) add_hold(X_TI, patch.hold, result);
   if (newest.ring.count > 1) add_ring(X_TI, V_TI_T, newest.ring, result);
@@ -62,7 +62,7 @@ void ContactRenderer::add_hold(const Pose& X_TI, const GripHold& hold, ContactRe
   Wrench pull;
   pull.force = hold.stiffness_n_per_m * stretch;
   pull.moment = (point - X_TI.p).cross(pull.force);
-  glide_.pulled(pull.force);
+  glide_.pulled(pull.force, X_TI);
   result.F_I_T = result.F_I_T + pull;
   result.spring_I_T = result.spring_I_T + pull;
   result.stored_j += 0.5 * hold.stiffness_n_per_m * stretch.squaredNorm();

@@ -98,9 +98,20 @@ void GlidingPatch::take(const ContactPatch& newest) {
   dissipated(newest.given_j);
 }
 
+/// Of F^2 / 2 k, as both go over in straight lines.
+double GlidingPatch::cost_of_hold() const {
+  const double k = present_.hold.stiffness_n_per_m;
+  if (k <= 0) return 0;
+  const auto force = [this](const GripHold& hold) {
+    return Vec3(hold.stiffness_n_per_m * (hold.anchor_T - X_TI_ * hold.point_I));
+  };
+  const double stiffer = hold_end_.stiffness_n_per_m - hold_start_.stiffness_n_per_m;
+  return pull_T_.dot(force(hold_end_) - force(hold_start_)) / k - 0.5 * stiffer * pull_T_.squaredNorm() / (k * k);
+}
+
 double GlidingPatch::cost_of_rest(const SolvedContacts& pressed, double stored_j) const {
   if (progress_ >= 1) return 0;
-  double cost = pull_T_.dot(hold_end_.anchor_T - hold_start_.anchor_T), force = 0, stiffer = 0;
+  double cost = cost_of_hold(), force = 0, stiffer = 0;
   for (int i = 0; i < pressed.count; ++i) {
     const SolvedContact& contact = pressed.at[static_cast<std::size_t>(i)];
     const auto end = present_.triangle.begin() + present_.count;
@@ -130,9 +141,13 @@ void GlidingPatch::move(double share) {
     present_.vertex[at] = start_[at] + progress_ * way;
     present_.velocity[at] = rate * way;
   }
-  const auto between = [this](const auto& from, const auto& to) { return from + progress_ * (to - from); };
+  // Of the grip the force goes over in a straight line. Stiffness and anchor each for itself would make it bulge: a
+  // soft spring's anchor is far away.
+  const double at_start = (1 - progress_) * hold_start_.stiffness_n_per_m,
+               at_end = progress_ * hold_end_.stiffness_n_per_m, k = at_start + at_end, of_end = k > 0 ? at_end / k : 0;
+  const auto between = [of_end](const Vec3& from, const Vec3& to) -> Vec3 { return from + of_end * (to - from); };
   present_.hold = {between(hold_start_.point_I, hold_end_.point_I), between(hold_start_.anchor_T, hold_end_.anchor_T),
-                   between(hold_start_.stiffness_n_per_m, hold_end_.stiffness_n_per_m)};
+                   k};
   for (std::size_t m = 0; m < kMaxPatchMaterials; ++m)
     present_.material[m].stiffness_n_per_m = stiff_start_[m] + progress_ * (stiff_end_[m] - stiff_start_[m]);
 }

@@ -39,8 +39,8 @@ class GlidingPatch {
                              double thinnest_m);
   void dissipated(double energy_j);
   void forget() { stamp_ = 0; }
-  /// What the grip's spring did on the tool this period.
-  void pulled(const Vec3& force_T) { pull_T_ = force_T; }
+  /// What the grip's spring did on the tool this period, and where the tool was.
+  void pulled(const Vec3& force_T, const Pose& X_TI) { pull_T_ = force_T, X_TI_ = X_TI; }
 
   double period_s() const { return parameters_.period_s; }
   double moved_m() const { return moved_m_; }          ///< most that a vertex moved this period
@@ -53,6 +53,7 @@ class GlidingPatch {
   void take(const ContactPatch& newest);
   /// What the rest of the way costs at the present forces, J.
   double cost_of_rest(const SolvedContacts& pressed, double stored_j) const;
+  double cost_of_hold() const;
   void move(double share);
 
   GlideParameters parameters_;
@@ -61,6 +62,7 @@ class GlidingPatch {
   std::array<double, kMaxPatchMaterials> stiff_start_{}, stiff_end_{};
   GripHold hold_start_, hold_end_;
   Vec3 pull_T_ = Vec3::Zero();
+  Pose X_TI_;
   std::uint64_t stamp_ = 0;
   double progress_ = 1, longest_m_ = 0, age_s_ = 0;
   double moved_m_ = 0, force_share_ = 1;

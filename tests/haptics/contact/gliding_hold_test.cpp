@@ -1,0 +1,68 @@
+// A grip's spring that changes from patch to patch: the force goes over and never beyond what either patch asks for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "haptics/contact/contact_renderer.h"
+#include "tests/haptics/contact/surfaces.h"
+
+namespace trocar::gliding_hold_test {
+namespace {
+
+constexpr double kGlide_s = 0.010;
+constexpr int kPeriods = 10;
+
+/// Jaws that stand still at the origin, a patch every 10 ms.
+class Held {
+ public:
+  /// @return the largest force of the next 10 ms, N. @param force_T that the new patch has on the tool, N
+  double most(const Vec3& force_T, double stiffness_n_per_m) {
+    patch_->stamp++;
+    patch_->glide_s = kGlide_s;
+    patch_->hold = {Vec3(0, 0, -0.005), X_TI_ * Vec3(0, 0, -0.005) + force_T / stiffness_n_per_m, stiffness_n_per_m};
+    double most = 0;
+    for (int i = 0; i < kPeriods; ++i) {
+      last_T = renderer_.update(X_TI_, {}, *patch_).F_I_T.force;
+      most = std::max(most, last_T.norm());
+    }
+    return most;
+  }
+  Vec3 last_T = Vec3::Zero();
+
+ private:
+  Pose X_TI_ = test::tip_down(Vec3(0.01, -0.02, 0.03));
+  std::unique_ptr<ContactPatch> patch_ = std::make_unique<ContactPatch>();
+  ContactRenderer renderer_{ContactLaw::kProxy};
+};
+
+TEST(GlidingHold, ASpringThatGrowsSoftDoesNotKick) {
+  // Of a slack duct whose pull turns: nearly no force, and soft across it.
+  for (const double soft : {1.0, 10.0, 100.0}) {
+    Held held;
+    const Vec3 first(0.03, 0.02, 0), second(-0.02, 0.04, 0.01);
+    held.most(first, 216);
+    EXPECT_NEAR((held.last_T - first).norm(), 0, 1e-9);
+    EXPECT_LE(held.most(second, soft), std::max(first.norm(), second.norm()) + 1e-9) << soft;
+    EXPECT_LE(held.most(first, 216), std::max(first.norm(), second.norm()) + 1e-9) << soft;
+  }
+}
+
+TEST(GlidingHold, TheForceArrives) {
+  Held held;
+  const Vec3 first(0.3, 0, 0.2), second(0, -0.4, 0.1);
+  held.most(first, 250);
+  held.most(second, 40);
+  held.most(second, 40);
+  EXPECT_NEAR((held.last_T - second).norm(), 0, 1e-6);
+}
+
+TEST(GlidingHold, ComesAndGoesWithoutALeap) {
+  Held held;
+  const Vec3 force(0.5, 0, 0);
+  EXPECT_LE(held.most(force, 200), force.norm() + 1e-9);
+  EXPECT_LE(held.most(Vec3::Zero(), 1e-9), force.norm() + 1e-9);
+}
+
+}  // namespace
+}  // namespace trocar::gliding_hold_test
