@@ -18,6 +18,9 @@ using Style = SceneObject::Style;
 using Look = SceneObject::Look;
 
 constexpr double kFieldDeg = 72;
+constexpr double kOfFrame = 0.9;         // of what the picture's height shows: the start stands within
+constexpr double kTipSeen = 0.004;       // m round the tip of an instrument that comes in
+constexpr double kToWork_s = 1.5;        // from the start's view to the work's
 constexpr double kSleeveInside = 0.025;  // m of the port's tube on the scope's side of the wall
 
 const Vec3 kBoardLines(0.44, 0.44, 0.42);
@@ -29,6 +32,10 @@ constexpr double kThreadWider = 0.00015;  // m
 constexpr std::size_t kOfSuture = 2;      // needle and thread, the last thin parts
 constexpr double kOnNeedle = 0.0006;      // m of opening of jaws that hold a needle
 constexpr double kClosedGap = 0.0004;     // m that tissue keeps between a closed clip's legs
+
+/// That the picture shows at a distance of 1: the frame cuts the round field above and below, 0.5 of the height against
+/// a radius of 0.64 of it.
+double half_height() { return 0.5 / 0.64 * std::tan(0.5 * kFieldDeg * std::numbers::pi / 180); }
 
 std::vector<TargetMark> marks(const DirectorView& director) {
   std::vector<TargetMark> out;
@@ -179,9 +186,7 @@ Camera attempt_camera(const Scene& scene) {
     camera.eye_T = camera.look_at_T + Vec3(-0.012, -1.15 * layout.region_y_m, 1.0 * layout.region_y_m);
     return camera;
   }
-  // The frame cuts the round field above and below: 0.5 of the height against a radius of 0.64 of it.
-  const double half_field = std::atan(0.5 / 0.64 * std::tan(0.5 * kFieldDeg * std::numbers::pi / 180));
-  const double distance = 0.5 * work.sizes().norm() / std::sin(half_field);
+  const double distance = 0.5 * work.sizes().norm() / std::sin(std::atan(half_height()));
   camera.look_at_T = work.center();
   camera.eye_T = camera.look_at_T + Vec3(-0.08, -0.75, 0.66).normalized() * distance;
   return camera;
@@ -189,9 +194,29 @@ Camera attempt_camera(const Scene& scene) {
 
 bool is_scope(const Exercise& exercise) { return picture_of(exercise).sees != nullptr; }
 
+namespace {
+
+/// Drawn back along its line of sight until a sphere is in the picture.
+Camera drawn_back(Camera camera, const Vec3& centre_T, double radius_m) {
+  const Vec3 away = (camera.look_at_T - camera.eye_T).normalized(), way = centre_T - camera.eye_T;
+  const double deep = way.dot(away), aside = (way - deep * away).norm() + radius_m;
+  camera.eye_T -= std::max(0.0, aside / (kOfFrame * half_height()) - deep) * away;
+  return camera;
+}
+
+}  // namespace
+
 Camera attempt_camera(const SessionView& view) {
-  const KindPicture& picture = picture_of(view.scene.setup.exercise);
-  return picture.sees ? picture.sees(view.scene, view.record.stylus.X_TI) : attempt_camera(view.scene);
+  const Scene& scene = view.scene;
+  const KindPicture& picture = picture_of(scene.setup.exercise);
+  if (picture.sees) return picture.sees(scene, view.record.stylus.X_TI);
+  const DirectorStatus& status = view.director.status();
+  Camera camera = attempt_camera(scene);
+  Camera whole = drawn_back(camera, scene.board.start_T, scene.setup.exercise.start_sphere_m);
+  if (!scene.loop.daq.motors) whole = drawn_back(whole, entry_T(scene), kTipSeen);
+  const double s = waits_for_start(status.phase) ? 0 : std::min(1.0, status.run_time_s / kToWork_s);
+  camera.eye_T += (1 - s * s * (3 - 2 * s)) * (whole.eye_T - camera.eye_T);
+  return camera;
 }
 
 namespace {

@@ -15,13 +15,14 @@ SceneView attempt_scene(const SessionView& view);
 /// Of the exercise's instruments the one that is in hand.
 InstrumentKind in_hand(const SessionView& view);
 
-/// Scope that frames the exercise: on an organ from the trainee's side over the board region, otherwise so that all
-/// that belongs to the board fits into the field.
+/// Scope that frames the work: on an organ from the trainee's side over the board region, otherwise so that all that
+/// belongs to the board fits into the field.
 Camera attempt_camera(const Scene& scene);
 
 /// Is the instrument the scope, so that the picture goes with it?
 bool is_scope(const Exercise& exercise);
-/// What is seen at this moment: through the instrument where that is the scope, else as the exercise is framed.
+/// What is seen at this moment: through the instrument where that is the scope, else as the work is framed, but drawn
+/// back as far as the start needs until it is reached; then it goes in, for as long as a breath.
 Camera attempt_camera(const SessionView& view);
 
 /// Board, blocks and ring marks as they are now. @param frame newest state of the blocks; nullptr: as laid out.

@@ -5,6 +5,11 @@
 namespace trocar {
 namespace {
 
+/// Scissors, clips and needles take all the force that there is.
+bool can_squeeze_too_hard(InstrumentKind kind) {
+  return kind == InstrumentKind::kGrasper || kind == InstrumentKind::kProbe;
+}
+
 double share_of(double way, double longest) { return way > longest ? longest / way : 1; }
 
 }  // namespace
@@ -29,7 +34,8 @@ void PersonHand::follow(const HandIntent& wanted, const Percept& percept, double
   else
     intent_.X_TI.R = wanted.X_TI.R;
   const double close = wanted.jaw_opening_m - intent_.jaw_opening_m;
-  const double closing = entry_T_ && percept.felt_grip_n > 0 ? kFingerPress : kFingerSpeed;
+  const bool gently = entry_T_ && percept.felt_grip_n > 0 && can_squeeze_too_hard(percept.instrument);
+  const double closing = gently ? kFingerPress : kFingerSpeed;
   intent_.jaw_opening_m += std::clamp(close, -closing * dt_s, kFingerSpeed * dt_s);
   intent_.clutch = wanted.clutch;
   intent_.pedal = wanted.pedal;

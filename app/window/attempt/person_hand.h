@@ -43,7 +43,8 @@ class PersonHand final : public Hand {
 
   static constexpr double kTakesUp = 0.03;  ///< s: some steps of the director
 
-  static constexpr double kFingerPress = 0.0012;  ///< careful: of the fingers, 0.36 N/s at 300 N/m
+  static constexpr double kFingerPress =
+      0.0012;  ///< careful: of the fingers on what a grasper can crush, 0.36 N/s at 300 N/m
 
   /// @param link outlives the hand. @param entry_T without a device: where the hand brings the instrument in. Nothing
   /// pushes back then, and what is touched is pressed slowly, so that a force can be had by eye.

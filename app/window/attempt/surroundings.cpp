@@ -36,6 +36,29 @@ enum GroundNumber : int {
   kAnswerGround = 800
 };
 
+/// With the jaws round what is touched, too: it is named by them.
+bool asks_to_grip(const DirectorStatus& status) {
+  switch (status.cue) {
+    case Cue::kGrip:
+    case Cue::kSearch:
+    case Cue::kTake:
+    case Cue::kLift:
+    case Cue::kLower:
+    case Cue::kClip:
+    case Cue::kSever:
+    case Cue::kSnip:
+    case Cue::kTakeNeedle:
+    case Cue::kDrive:
+    case Cue::kPull:
+      return true;
+    case Cue::kReach:
+    case Cue::kPress:
+      return status.demand.instrument && describe(*status.demand.instrument).jaw_length_m > 0;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 struct Surroundings::State {
@@ -127,17 +150,16 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   s.tissue = moment.tissue;
   AtHand out;
   out.now = hand;
-  const bool sews = status.cue == Cue::kTakeNeedle || status.cue == Cue::kDrive || status.cue == Cue::kPull;
-  out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || status.cue == Cue::kGrip || status.cue == Cue::kSearch ||
-             status.cue == Cue::kClip || status.cue == Cue::kSever || status.cue == Cue::kSnip || sews;
   const std::vector<InstrumentKind>& instruments = s.scene.setup.exercise.instruments;
+  out.jaws = kind_of(s.scene.setup.exercise).jaws_hold || asks_to_grip(status);
   out.in_tissue = !out.jaws && instruments.front() != InstrumentKind::kProbe;
   const auto in_hand = std::min(static_cast<std::size_t>(record.stylus.instrument), instruments.size() - 1);
   out.jaws_apart = out.in_tissue && describe(instruments[in_hand]).jaw_length_m > 0;
   out.touching = record.stylus.contact;
   if (out.touching) out.normal_T = record.stylus.contact_normal_T;
   if (out.touching) out.force_n = record.stylus.F_I_T.force.norm();
-  out.gripping = record.stylus.grip_force_n > 0;
+  out.grip_n = record.stylus.grip_force_n;
+  out.gripping = out.grip_n > 0;
   out.scope = is_scope(s.scene.setup.exercise);
   if (out.scope) return out;  // it moves along what it sees
   if (!s.scene.level.pointer.glide && !waits_for_start(status.phase)) return out;

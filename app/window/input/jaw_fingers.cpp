@@ -32,6 +32,10 @@ void JawFingers::advance(const Wish& wish, double dt_s) {
     if (wish.gripping) opening_m_ = std::max(opening_m_, wish.fingers_m - kAhead_m);
   } else if (wish.let_go && !opening_) {
     opening_m_ = wish.fingers_m;
+    kept_n_ = wish.grip_n;
+  } else if (!opening_ && wish.gripping && wish.grip_n < kept_n_) {
+    const double follows = std::min(kFollowFastest, kFollow * (kept_n_ - wish.grip_n)) * dt_s;
+    opening_m_ = std::max(opening_m_ - follows, wish.fingers_m - kAhead_m);
   }
   if (opening_) opening_m_ = finger_toward(opening_m_, widest_m_, step);
 }

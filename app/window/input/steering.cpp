@@ -459,7 +459,8 @@ struct Steering::State {
                    .let_go = let_go,
                    .open = let_off,
                    .gripping = around.gripping,
-                   .fingers_m = around.now.jaw_opening_m},
+                   .fingers_m = around.now.jaw_opening_m,
+                   .grip_n = around.grip_n},
                   dt_s);
     intent.jaw_opening_m = jaw.opening_m();
   }

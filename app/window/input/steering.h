@@ -43,7 +43,8 @@ struct AtHand {
   bool touching = false;                ///< the instrument feels a force
   Vec3 normal_T = Vec3::UnitZ();        ///< out of what it touches
   double force_n = 0;                   ///< and how hard
-  bool gripping = false;                ///< so do the jaws
+  bool gripping = false;                ///< so do the jaws,
+  double grip_n = 0;                    ///< and how hard
   bool scope = false;                   ///< it is the scope: leaning turns the view to where the hand goes
   const GlideGround* ground = nullptr;  ///< to glide over
 };

@@ -56,7 +56,7 @@ struct RunScreen::State {
   bool again = false;    // the overlay asks whether to start again
   bool leaving = false;  // the overlay asks whether to leave an exam
   RunMoment before;      // shown while nothing has been seen
-  Camera camera, seen;   // of the exercise; of the last picture
+  Camera seen;           // of the last picture
   PixelRect picture;
   HudLayout layout;
   std::optional<double> rim, lit_rim;  // where tip and lit target are when they are out of view
@@ -117,7 +117,6 @@ void RunScreen::State::begin(PracticeModel& model) {
   before = first_moment(scene);
   surroundings = std::make_unique<Surroundings>(scene);
   guide = {};
-  camera = attempt_camera(scene);
   steering = was_paused = overlay = again = leaving = false;
   bars = true;
   guides = scene.level.guides;
@@ -144,7 +143,8 @@ const RunMoment& RunScreen::State::shown_moment(PracticeModel& model) const {
 /// Where the scope is now; until the person has taken hold, where the exercise has it.
 Camera RunScreen::State::seen_by(PracticeModel& model) const {
   const Scene& scene = model.running()->scene();
-  if (is_scope(scene.setup.exercise)) return attempt_camera(view_of(scene, shown_moment(model)));
+  const Camera camera = attempt_camera(view_of(scene, shown_moment(model)));
+  if (is_scope(scene.setup.exercise)) return camera;
   return moved_camera(camera, steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
 }
 

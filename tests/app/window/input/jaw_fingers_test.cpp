@@ -1,5 +1,7 @@
 #include "app/window/input/jaw_fingers.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace trocar::jaw_fingers_test {
@@ -56,6 +58,31 @@ TEST(JawFingers, LetGoTheyStayWhereTheFingersAre) {
   run(jaw, kOpen, 0.001);
   run(jaw, kNothing, 0.5);  // once is enough
   EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.02);
+}
+
+TEST(JawFingers, LetGoTheyKeepTheForceOnWhatRelaxes) {
+  constexpr double kStiff = 300, kThick_m = 0.010;  // N/m; and half of its force goes within a second
+  JawFingers jaw;
+  jaw.begin(0.02);
+  double relaxed_m = 0;
+  const auto squeezed = [&] { return std::max(0.0, kStiff * (kThick_m - relaxed_m - jaw.opening_m())); };
+  const auto step = [&](JawFingers::Wish wish) {
+    wish.gripping = squeezed() > 0;
+    wish.grip_n = squeezed();
+    wish.fingers_m = jaw.opening_m();
+    jaw.advance(wish, 0.001);
+  };
+  while (squeezed() < 1.5) step(kClose);
+  const double kept = squeezed();
+  step(kLetGo);
+  for (int i = 0; i < 3000; ++i) {
+    relaxed_m = std::min(0.0025, relaxed_m + 0.0025 * 0.001);
+    step(kNothing);
+  }
+  EXPECT_NEAR(squeezed(), kept, 0.02);
+  step(kOpen);
+  for (int i = 0; i < 1000; ++i) step(kNothing);
+  EXPECT_DOUBLE_EQ(squeezed(), 0);
 }
 
 TEST(JawFingers, AtAnObjectTheyAreNeverFarAheadOfTheFingers) {

@@ -12,6 +12,8 @@
 #include "app/session/setup/scene.h"
 #include "app/window/run/tip_guide.h"
 #include "app/window/ui/theme.h"
+#include "haptics/device/backends/make_backend.h"
+#include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/kind.h"
 #include "scenarios/layout/height_field.h"
 #include "tests/app/window/attempt/attempt_samples.h"
@@ -28,8 +30,9 @@ Scene board_of(const std::string& exercise, const std::string& level, int board)
   setup.exercise = shipped_exercise(exercise);
   setup.level = level;
   setup.organ = "phantom-liver";
+  setup.tissue = setup.exercise.tissue;
   setup.board = board;
-  return build_scene(setup, source_assets(), {"pointer", setup.rate_hz, 16});
+  return build_scene(setup, source_assets(), backend_capabilities(kPointerBackend, setup.rate_hz));
 }
 
 /// Highest that the surface stands over the line of sight to a point on it, m; its own surroundings are left out.
@@ -67,6 +70,33 @@ TEST(LitIsSeen, OnEveryPracticeBoardAndLevelInTheFrameAndBeforeEveryEdge) {
           EXPECT_LT(stands_before(*organ, camera.eye_T, target.centre_T), 0.0005) << where << ": behind an edge";
         }
       }
+    }
+  }
+}
+
+TEST(StartIsSeen, InEveryExerciseWithTheInstrumentThatComesInUntilTheClockRuns) {
+  constexpr PixelRect kScope{0, 45, 960, 644};
+  for (const Exercise& exercise : list_exercises(source_assets().exercises)) {
+    if (is_scope(exercise)) continue;  // it is looked through
+    for (const char* level : {"L1", "L3"}) {
+      const std::string where = exercise.number + " " + level;
+      const Scene scene = board_of(exercise.id, level, 1);
+      RunMoment moment;
+      const auto seen = [&] { return attempt_camera(view_of(scene, moment)); };
+      ASSERT_TRUE(waits_for_start(moment.status.phase));
+      const Camera camera = seen();
+      EXPECT_GT(camera.eye_T.z(), scene.board.start_T.z()) << where << ": who glides at its height sees that plane";
+      const ScopeOptics optics(camera, kScope);
+      for (const Vec3& p_T : {scene.board.start_T, entry_T(scene)}) {
+        const auto at = optics.project(p_T);
+        ASSERT_TRUE(at) << where;
+        EXPECT_GT(at->y(), kScope.y) << where;
+        EXPECT_LT(at->y(), kScope.y + kScope.height) << where;
+      }
+      moment.status.phase = Phase::kRun;
+      EXPECT_EQ(seen().eye_T, camera.eye_T) << where << ": it goes in from there";
+      moment.status.run_time_s = 2;
+      EXPECT_EQ(seen().eye_T, attempt_camera(scene).eye_T) << where;
     }
   }
 }
