@@ -126,6 +126,7 @@ struct Steering::State {
                   scoped_px = Eigen::Vector2d::Zero();
   double wheel_m = 0, roll_wheel = 0, scope_wheel = 0;
   bool exchange_pressed = false;  ///< however short
+  bool closed_by_key = false;     ///< the jaws, in the last step
 
   bool on(Action action) const { return held.contains(action); }
   bool pad_on(std::uint32_t button) const { return (pad_buttons & button) != 0; }
@@ -140,7 +141,7 @@ struct Steering::State {
     pad_buttons = space_mouse_buttons = 0;
     moved_px = dragged_px = scoped_px = Eigen::Vector2d::Zero();
     wheel_m = roll_wheel = scope_wheel = 0;
-    exchange_pressed = false;
+    exchange_pressed = closed_by_key = false;
   }
 
   /// As the event says, or as the keys themselves were seen.
@@ -446,7 +447,9 @@ struct Steering::State {
     intent.exchange = std::exchange(exchange_pressed, false) || on(Action::kExchange) || pad_on(kPadRightThumb);
   }
 
+  /// Where the act button closes the jaws their own key does so, too, and let go it opens them as ever.
   void move_jaws(const AtHand& around, double dt_s) {
+    const bool by_key = on(Action::kGrip), opened = std::exchange(closed_by_key, by_key) && !by_key;
     if (around.jaws_apart)
       jaw.work({.close = gripping(),
                 .shut = acting || !act_way_T.isZero(),
@@ -455,9 +458,9 @@ struct Steering::State {
                dt_s);
     else
       jaw.advance({.used = around.jaws,
-                   .close = acting,
+                   .close = acting || by_key,
                    .let_go = let_go,
-                   .open = let_off,
+                   .open = let_off || opened,
                    .gripping = around.gripping,
                    .fingers_m = around.now.jaw_opening_m,
                    .grip_n = around.grip_n},

@@ -135,6 +135,18 @@ TEST(SteeringJaws, HeldTheyCloseLetGoTheyStayAndAClickOpensThem) {
   EXPECT_DOUBLE_EQ(s.run(0.6).jaw_opening_m, 0.02);
 }
 
+TEST(SteeringJaws, TheirOwnKeyClosesThemWhereTheActButtonDoesAndLetGoItOpensThem) {
+  Steered s;
+  s.press('G');
+  EXPECT_LT(s.run(0.4).jaw_opening_m, 0.005);
+  s.release('G');
+  EXPECT_NEAR(s.run(1).jaw_opening_m, 0.02, 1e-4);
+  s.press('G');
+  s.run(0.4);
+  s.steering.handle(event_of(InputEvent::Kind::kFocusLost));
+  EXPECT_LT(s.run(1).jaw_opening_m, 0.005) << "what is held stays held";
+}
+
 TEST(SteeringJaws, AreClosedWhereNothingIsToBeGrippedAndOpenWhenItIs) {
   Steered s;
   s.around.jaws = false;

@@ -157,7 +157,8 @@ void SteeredHand::turn(const Mat3& wanted_TI, const Camera& camera) {
 void SteeredHand::use_jaws(double wanted_m, const AtHand& around) {
   const double now_m = around.now.jaw_opening_m;
   const bool narrower = wanted_m + grip_yields_m_ < now_m - kClose_m;
-  if (around.jaws_apart) return hold(Action::kGrip, narrower || wanted_m < kClose_m);
+  hold(Action::kGrip, around.jaws_apart && (narrower || wanted_m < kClose_m));
+  if (around.jaws_apart) return;
   if (!around.jaws) return hold(Action::kAct, false);
   lets_off_s_ -= kFrame_s;
   if (wanted_m > now_m + kOpen_m && lets_off_s_ < -kTap_s) lets_off_s_ = kTap_s;
