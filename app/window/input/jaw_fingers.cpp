@@ -28,6 +28,7 @@ void JawFingers::advance(const Wish& wish, double dt_s) {
   if (begins || wish.open) opening_ = true;
   if (wish.close) {
     opening_ = false;
+    kept_n_ = 0;  // until it is let go
     opening_m_ = finger_toward(opening_m_, kTightest_m, step);
     if (wish.gripping) opening_m_ = std::max(opening_m_, wish.fingers_m - kAhead_m);
   } else if (wish.let_go && !opening_) {
