@@ -21,6 +21,7 @@ constexpr double kNear = 0.006;       // m: the tip settles over it while the ha
 constexpr double kNearRing = 0.008;   // m: so does what is carried, over the middle of its ring
 constexpr double kSticks = 0.3;       // of sideways movements, while a block is between the jaws or in its ring
 constexpr double kPressed = 0.008;    // m that open jaws are pressed on tissue that they shall take
+constexpr double kTissueSpeed = 0.015;  // m/s up and down with tissue under or between the jaws: felt as a pull, no jerk
 constexpr double kOnDisc = 0.8, kLeavesDisc = 1.6;  // of its radius: the tip goes down to it, and up again
 constexpr double kHangs = 0.002;                    // m of a block over the board before it is let go: no fall
 enum GroundNumber : int {
@@ -118,10 +119,17 @@ struct Surroundings::State {
     const auto level = [](double z) { return [z](double, double) { return z; }; };
     const double off_m = (demand.centre_T - tip_T).head<2>().norm();
     if (status.cue == Cue::kRead) return {kAnswerGround, level(demand.centre_T.z()), 0};
-    if (status.cue == Cue::kLift) return {kLiftGround + status.target_index, level(demand.goal_T.z()), 0};
+    if (status.cue == Cue::kLift) {
+      GlideGround lifted{kLiftGround + status.target_index, level(demand.goal_T.z())};
+      lifted.settle_m_per_s = kTissueSpeed;
+      return lifted;
+    }
     const double near = demand.radius_m * (ground.number == kPressGround + status.target_index ? kLeavesDisc : kOnDisc);
-    if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < near))
-      return {kPressGround + status.target_index, level(demand.centre_T.z()), -kPressed};
+    if (status.cue == Cue::kLower || (status.cue == Cue::kTake && off_m < near)) {
+      GlideGround pressed{kPressGround + status.target_index, level(demand.centre_T.z()), -kPressed};
+      pressed.settle_m_per_s = kTissueSpeed;
+      return pressed;
+    }
     return {kWorkGround, [this](double x, double y) { return height(x, y); }, kOverOrgan};
   }
 

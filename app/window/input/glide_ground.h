@@ -19,6 +19,7 @@ struct GlideGround {
   std::optional<Vec3> centre_T = {};                     ///< to which the foot settles while the hand rests
   std::optional<double> level_z_m = {};  ///< the clearance is over this instead: things stand on a board
   double aside = 1;                      ///< of a movement sideways: less where it would push what stands there
+  double settle_m_per_s = 0.08;          ///< to that height: slower where tissue is pressed or lifted on the way
 };
 
 /// First point of the ground on the line of sight through a point; none within reach: nothing.

@@ -44,10 +44,9 @@ constexpr double kAhead = 0.0015;                           // m that the target
 constexpr double kLetOff = 0.10;                            // m/s back
 constexpr double kFeltGain = 0.3;                           // of sideways movements, while something is touched
 constexpr double kAway = 0.005;                             // m of a movement sideways that lets off by itself
-constexpr double kSettle = 0.08;                            // m/s to the height that belongs to a ground
 constexpr double kSnap = 0.02;                              // m/s to the middle of what it stands over
 constexpr double kEdge = 1e-5;  // m: above what seen_ground() leaves, below any step: there the ground ends
-constexpr double kLowest = -0.010, kHighest = 0.120;  // m over the ground
+constexpr double kLowest = -0.016, kHighest = 0.120;  // m over the ground: an even press needs 13 mm of soft organ
 
 struct View {
   Vec3 right, up, away;
@@ -330,7 +329,8 @@ struct Steering::State {
     const bool below_edge = std::abs(pointed_T.z() - foot_T.z()) > kEdge;
     if (!below_edge || pointed_T.head<2>() != foot_T.head<2>()) pointed_T = foot_T;
     if (deeper_m != 0) rest_m = lift_m = std::clamp(lift_m - deeper_m, kLowest, kHighest);
-    if (!acting) lift_m += std::clamp(rest_m - lift_m, -kSettle * dt_s, kSettle * dt_s);
+    const double settles = over.settle_m_per_s * dt_s;
+    if (!acting) lift_m += std::clamp(rest_m - lift_m, -settles, settles);
     wanted_T = {foot_T.x(), foot_T.y(), over.level_z_m.value_or(foot_T.z()) + lift_m};
   }
 

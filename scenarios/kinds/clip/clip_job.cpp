@@ -14,7 +14,8 @@ constexpr double kStaysFor = 4;                       // s, before speed_factor,
 constexpr double kClipJawSpeed = 0.030;               // m/s of free opening and closing
 constexpr double kClipShutJaw = -0.016;               // m of intent: the fingers press beyond what they hold
 constexpr double kShutFor = 0.15;                     // s
-constexpr double kTugFor = 0.2;                       // s at the end of a pull
+constexpr double kTugTime = 0.8;                      // s of a pull, before speed_factor ...
+constexpr double kTugFor = 0.2;                       // ... and of staying at its end
 constexpr double kPulledStiffness = 70;               // N/m of a structure, as a person expects it
 constexpr double kLongestTug = 0.050;                 // m
 constexpr double kOver = 0.020;                       // m over the goal at which the reach ends
@@ -108,14 +109,17 @@ void ClipJob::close(const Percept& percept, double dt_s, HandIntent& intent, Han
   if (in_step_s_ <= kShutFor) return;
   if (percept.asked_instrument != InstrumentKind::kClipApplier) return enter(Step::kOpen);
   const double goal_n = (percept.band_low_n + percept.band_high_n) / 2 * skill_.force_bias;
-  const double way = std::clamp(goal_n * (1 + skill_.force_cv * random.normal()) / kPulledStiffness, 0.0, kLongestTug);
+  pull_n_ = goal_n * (1 + skill_.force_cv * random.normal());
+  const double way = std::clamp(pull_n_ / kPulledStiffness, 0.0, kLongestTug);
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way * percept.target_normal_T,
-                    {0, Vec3::Zero(), 0, reach_time_s(way, kOver, skill_.speed_factor)});
+                    {0, Vec3::Zero(), 0, kTugTime * skill_.speed_factor});
   enter(Step::kTug);
 }
 
-void ClipJob::tug(HandIntent& intent) {
-  intent.X_TI.p = plan_.at(in_step_s_);
+/// As far as planned, or until it is felt that the structure is stiffer than expected.
+void ClipJob::tug(const HandSenses& senses, HandIntent& intent) {
+  if (-senses.touch_n() > pull_n_ && in_step_s_ < plan_.duration_s()) in_step_s_ = plan_.duration_s();
+  else if (in_step_s_ < plan_.duration_s()) intent.X_TI.p = plan_.at(in_step_s_);
   if (in_step_s_ > plan_.duration_s() + kTugFor) enter(Step::kOpen);
 }
 
@@ -128,7 +132,7 @@ void ClipJob::open(const Percept& percept, double dt_s, HandIntent& intent) {
   enter(++tries_ % kTriesInside == 0 ? Step::kWithdraw : Step::kCheck);
 }
 
-void ClipJob::update(const Percept& percept, const HandSenses&, double dt_s, HandIntent& intent, HandRandom& random) {
+void ClipJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random) {
   in_step_s_ += dt_s;
   switch (step_) {
     case Step::kWithdraw:
@@ -151,7 +155,7 @@ void ClipJob::update(const Percept& percept, const HandSenses&, double dt_s, Han
     case Step::kClose:
       return close(percept, dt_s, intent, random);
     case Step::kTug:
-      return tug(intent);
+      return tug(senses, intent);
     case Step::kOpen:
       return open(percept, dt_s, intent);
   }

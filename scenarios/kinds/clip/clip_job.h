@@ -32,7 +32,7 @@ class ClipJob : public HandWork {
   void go(Step step, const Percept& percept, double over_m, const HandIntent& intent, HandRandom& random);
   void look(const Percept& percept, const HandIntent& intent, HandRandom& random);
   void close(const Percept& percept, double dt_s, HandIntent& intent, HandRandom& random);
-  void tug(HandIntent& intent);
+  void tug(const HandSenses& senses, HandIntent& intent);
   void open(const Percept& percept, double dt_s, HandIntent& intent);
   static void set_jaws(const Percept& percept, double dt_s, HandIntent& intent);
   static double free_jaw(const Percept& percept);
@@ -44,7 +44,7 @@ class ClipJob : public HandWork {
   TurnPlan turn_;
   Step step_ = Step::kWithdraw;
   ExchangeSwitch switch_;
-  double in_step_s_ = 0;
+  double in_step_s_ = 0, pull_n_ = 0;
   bool planned_ = false, moves_on_ = false;
   int corrections_ = 0, tries_ = 0;
 };

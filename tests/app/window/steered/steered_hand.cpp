@@ -28,6 +28,7 @@ constexpr double kArmTime_s = 0.15, kFingerTime_s = 0.05;
 constexpr double kBehind_m = 0.006, kOpener_m = 0.002, kLongestWait_s = 6;
 constexpr double kTap_s = 0.05;
 constexpr double kClose_m = 0.0004, kOpen_m = 0.0020;  // of the jaws, before something is done about it
+constexpr double kOpens_m_per_s = 0.010;               // slower, a grip is eased
 
 struct Axes {
   Vec3 right, up, away;
@@ -58,8 +59,18 @@ bool SteeredHand::is_behind(double dt_s) {
   return behind && waited_s_ < kLongestWait_s;
 }
 
+/// The button keeps the grip that it has. A script that would ease it is told what easing would give, else it would
+/// open further and further.
+Percept SteeredHand::as_eased(Percept percept) {
+  const double eased_n =
+      kFinger_n_per_m * std::max(0.0, wants_.jaw_opening_m + grip_yields_m_ - link_.target.read().jaw_opening_m);
+  percept.felt_grip_n = std::max(0.0, percept.felt_grip_n - eased_n);
+  percept.shown_grip_n = std::max(0.0, percept.shown_grip_n - eased_n);
+  return percept;
+}
+
 HandIntent SteeredHand::update(const Percept& percept, double dt_s) {
-  if (!is_behind(dt_s)) wants_ = script_->update(percept, dt_s);
+  if (!is_behind(dt_s)) wants_ = script_->update(as_eased(percept), dt_s);
   yields_T_ += std::min(1.0, dt_s / kArmTime_s) * (percept.felt_force_T / kArm_n_per_m - yields_T_);
   grip_yields_m_ += std::min(1.0, dt_s / kFingerTime_s) * (percept.felt_grip_n / kFinger_n_per_m - grip_yields_m_);
   since_s_ += dt_s;
@@ -153,7 +164,7 @@ void SteeredHand::turn(const Mat3& wanted_TI, const Camera& camera) {
 }
 
 /// Where they have a key of their own it is held while they shall be narrower; else by the act button, and what was
-/// let go stays until a tap on the key that lets off opens them.
+/// let go stays until a tap on the key that lets off opens them: which a script that only eases its grip does not mean.
 void SteeredHand::use_jaws(double wanted_m, const AtHand& around) {
   const double now_m = around.now.jaw_opening_m;
   const bool narrower = wanted_m + grip_yields_m_ < now_m - kClose_m;
@@ -161,7 +172,8 @@ void SteeredHand::use_jaws(double wanted_m, const AtHand& around) {
   if (around.jaws_apart) return;
   if (!around.jaws) return hold(Action::kAct, false);
   lets_off_s_ -= kFrame_s;
-  if (wanted_m > now_m + kOpen_m && lets_off_s_ < -kTap_s) lets_off_s_ = kTap_s;
+  const bool opens = wanted_m - std::exchange(wanted_jaw_m_, wanted_m) > kOpens_m_per_s * kFrame_s;
+  if (opens && wanted_m > now_m + kOpen_m && lets_off_s_ < -kTap_s) lets_off_s_ = kTap_s;
   hold(Action::kLetOff, lets_off_s_ > 0);
   hold(Action::kAct, narrower && lets_off_s_ <= 0);
 }

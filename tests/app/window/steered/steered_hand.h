@@ -29,6 +29,7 @@ class SteeredHand final : public Hand {
 
  private:
   bool is_behind(double dt_s);
+  Percept as_eased(Percept percept);
   void look();
   void turn(const Mat3& wanted_TI, const Camera& camera);
   void move(const Vec3& to_T, const Camera& camera, bool glides);
@@ -51,7 +52,7 @@ class SteeredHand final : public Hand {
   double lets_off_s_ = 0;  ///< left of a key that is tapped
   std::uint64_t frames_ = 0, number_ = 0;
   Vec3 yields_T_ = Vec3::Zero();  ///< m, to what pushes back
-  double grip_yields_m_ = 0;
+  double grip_yields_m_ = 0, wanted_jaw_m_ = 0;
   std::map<Action, bool> held_;
 };
 

@@ -72,7 +72,7 @@ TEST_P(SteeredSweep, ToTheEnd) {
   plays(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, SteeredSweep, ::testing::Values("E07", "E12", "E14"),
+INSTANTIATE_TEST_SUITE_P(Of, SteeredSweep, ::testing::Values("E07", "E08", "E09", "E10", "E12", "E14"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
