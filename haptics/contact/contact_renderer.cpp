@@ -22,6 +22,8 @@ constexpr int kMostFall = 32;            // of half a radius in the air between 
 constexpr double kIdleTravel = 1e-3;     // m a period, beyond what the instrument itself moves
 constexpr double kArrived = 1e-7;        // m, remaining slide at which the proxy rests
 constexpr double kSlideSlack = 5e-5;     // m beyond the radius within which a triangle bounds the slide
+constexpr double kAgainst = 0.05;        // cosine of 87 deg between a slide and the way into what stops it ...
+constexpr double kHeadOn = 0.5;          // ... and of 60 deg of a fall, which grazes walls on its way
 constexpr double kShareSlack = 1e-5;     // m beyond the radius within which a triangle may carry force
 constexpr double kSameNormal = 0.9998;   // cosine of 1.1 deg: contacts closer than this are one
 constexpr double kSamePoint = 5e-4;      // m
@@ -181,13 +183,18 @@ double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactP
     const Vec3 step = free_step(goal - proxy_);
     const double length = step.norm();
     if (length < kArrived) break;
-    const double travel = std::min({length, stride, in_air ? stride : allowance});
-    proxy_ += step * (travel / length);
+    double travel = std::min({length, stride, in_air ? stride : allowance});
+    const Vec3 along = step / length;
+    proxy_ += travel * along;
+    near_.travel(travel);
+    const double back = std::min(travel, overshoot(along, in_air ? kHeadOn : kAgainst, patch));
+    proxy_ -= back * along;
+    near_.travel(back);
+    travel -= back;
     if (!in_air) {
       allowance -= travel;
       way += travel;
     }
-    near_.travel(travel);
     project(patch, kSlideSlack);
     if (in_air && touch_count_ > 0) allowance = std::max(allowance, kIdleTravel);
   }
@@ -197,6 +204,25 @@ double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactP
   const Vec3 y = proxy_ - goal;
   push_ = touch_count_ == 0 || y.norm() < kArrived ? Vec3(Vec3::Zero()) : Vec3(y - share_out(y));
   return way;
+}
+
+/// Pushed out from there it would lose the surface that it slides on, and slide back in the next period.
+double ContactRenderer::overshoot(const Vec3& along, double least_cosine, const ContactPatch& patch) {
+  near_.keep_up({tool_, axes_, proxy_}, patch, kSlideSlack);
+  double back = 0;
+  for (int n = 0; n < near_.count(); ++n) {
+    if (!near_.due(near_.at(n), 0)) continue;
+    const NearPairs::Pair pair = near_.at(n);
+    const CapsuleAxis& axis = axes_[pair.capsule];
+    const ClosestPair closest =
+        closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, patch.corners(pair.index));
+    const double gap = closest.distance - tool_.at[pair.capsule].radius_m;
+    near_.measured(n, gap);
+    if (gap > -kSlideSlack || closest.distance < 1e-9) continue;
+    const double against = along.dot(closest.on_triangle - closest.on_segment) / closest.distance;
+    if (against > least_cosine) back = std::max(back, -gap / against);
+  }
+  return back;
 }
 
 void ContactRenderer::lean_on_nearest(const Vec3& goal, const ContactPatch& patch) {

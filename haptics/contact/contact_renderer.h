@@ -101,6 +101,9 @@ class ContactRenderer {
   /// By how much the force has turned since the last period, rad; both carry some.
   double turned() const;
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// How far back along its way the proxy first met what it has run into, m.
+  /// @param least_cosine between its way and the way into the surface that counts
+  double overshoot(const Vec3& along, double least_cosine, const ContactPatch& patch);
   /// The period ended in the middle of a slide, a hair off the surface: brings the proxy to what it slides along.
   void lean_on_nearest(const Vec3& goal, const ContactPatch& patch);
   /// Furthest that an end of a capsule has to go against the tip to take this place.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "haptics/contact/tool_shape.h"
 #include "haptics/input_error.h"
 #include "tissue/thin/rod_contact.h"
 #include "tissue/thin/rod_in_jaws.h"
@@ -126,6 +127,7 @@ DuctSystem::DuctSystem(std::span<const DuctSetup> ducts, const SoftOrgan& organ,
     seen_.push_back(duct.tube.seen.surface());
   }
   between_.assign(ducts_.size(), false);
+  passed_.assign(ducts_.size(), false);
   find_places(organ);
   anchor(organ);
   for (Duct& duct : ducts_) {
@@ -293,12 +295,15 @@ std::int32_t DuctSystem::surrounded(const StylusState& stylus, const Tool& tool)
 
 void DuctSystem::use_jaws(const StylusState& stylus, const Tool& tool, const SoftOrgan& organ) {
   const auto jaws = jaw_space(options_, tool.kind, stylus.jaw_opening_m);
+  const ToolCapsules capsules = tool_capsules(tool.shape, stylus.jaw_opening_m, {});
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     const Duct& duct = ducts_[d];
+    const bool was = between_[d] || passed_[d];
     const bool stumps = duct.setup.slack && !whole(duct);  // they lie down before what comes
     const bool held = duct.grip.state() != GripState::kEmpty || duct.clasp.state() != GripState::kEmpty;
     between_[d] = stumps || duct.hook.holds() ||
                   (jaws && (held || !arcs_between(duct.tube.rod, stylus.X_TI, *jaws, kClear, kSampling).empty()));
+    passed_[d] = !between_[d] && was && overlaps(duct.tube.rod, stylus.X_TI, capsules, kSampling);
   }
   std::vector<std::vector<double>> arcs;
   const std::vector<ClipSurroundings::Rod> all = rods(arcs);
@@ -474,7 +479,8 @@ ContactMaterial DuctSystem::material(std::size_t duct) const {
 }
 
 bool DuctSystem::felt(std::int32_t triangle) const {
-  return !between_[static_cast<std::size_t>(duct_of_triangle_[static_cast<std::size_t>(triangle)])];
+  const auto d = static_cast<std::size_t>(duct_of_triangle_[static_cast<std::size_t>(triangle)]);
+  return !between_[d] && !passed_[d];
 }
 
 GripState DuctSystem::grip() const {

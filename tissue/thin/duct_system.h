@@ -4,10 +4,10 @@
 // and is going, rod.step, clips.step, surfaces; then springs of the ends for the organ's step (rod_on_solid.h). An end
 // on the organ hangs on the vertex nearest to it. An organ lies as it is drawn under the tension of its ducts: what it
 // feels of them is what their pull has changed, all of it once a duct is cut. A rod that lies between the jaws is taken
-// by them and is then no contact; the organ is not (jaws_taken). Contact surface: a coarse tube a duct, one behind the
-// other; numbers stay through cuts, whose new ones follow behind all. Contacts of the loop push the rod by
-// dent_stiffness(), which is the stiffness of its material in the patch: at the place of the solve the loop's force is
-// the solved one.
+// by them and is then no contact until the tool is clear of it; the organ is not (jaws_taken). Contact surface: a
+// coarse tube a duct, one behind the other; numbers stay through cuts, whose new ones follow behind all. Contacts of
+// the loop push the rod by dent_stiffness(), which is the stiffness of its material in the patch: at the place of the
+// solve the loop's force is the solved one.
 //
 // What bleeds is told by changed(): the caller knows the circulation. T, SI. Thread: tissue task. Same input, same
 // bytes.
@@ -164,6 +164,7 @@ class DuctSystem {
   std::vector<std::int32_t> duct_of_triangle_;
   std::vector<Piece> pieces_;
   std::vector<bool> between_;  ///< the jaws, in the crook, or a stump of what was slack: of each duct
+  std::vector<bool> passed_;   ///< was that, and the tool reaches into it still: no contact until it is clear
   bool grown_ = false;
   std::int32_t touched_ = -1;
   GripBlock block_;

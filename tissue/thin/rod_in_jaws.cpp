@@ -25,6 +25,10 @@ RodCrossing crossing_of(const ElasticRod& rod, double arc, const Vec3& point_I, 
   return crossing;
 }
 
+int pieces_of(const RodSegment& segment, double spacing_m) {
+  return std::max(1, static_cast<int>(std::ceil((segment.arc_to_m - segment.arc_from_m) / spacing_m)));
+}
+
 }  // namespace
 
 std::vector<RodCrossing> rod_crossings(const ElasticRod& rod, const Pose& X_TI, const JawSpace& jaws) {
@@ -56,7 +60,7 @@ std::vector<double> arcs_between(const ElasticRod& rod, const Pose& X_TI, const 
     if (!segment.whole) continue;
     const Vec3 a = X_IT * rod.nodes()[i].position, b = X_IT * rod.nodes()[i + 1].position;
     const double length = segment.arc_to_m - segment.arc_from_m;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing_m)));
+    const int pieces = pieces_of(segment, spacing_m);
     for (int k = 0; k < pieces; ++k) {
       const double share = (k + 0.5) / pieces;
       const Vec3 p = a + share * (b - a);
@@ -90,6 +94,28 @@ double length_between(const ElasticRod& rod, const Pose& X_TI, const JawSpace& j
     length += std::max(0.0, to - from) * edge.norm();
   }
   return length;
+}
+
+bool overlaps(const ElasticRod& rod, const Pose& X_TI, const ToolCapsules& tool, double spacing_m) {
+  const auto inside = [&](const Vec3& p_I) {
+    for (int c = 0; c < tool.count; ++c) {
+      const Capsule& capsule = tool.at[c];
+      const Vec3 p_C = capsule.X_IC.inverse() * p_I;  // its axis runs from 0 to -length along z
+      const Vec3 off = p_C - Vec3(0, 0, std::clamp(p_C.z(), -capsule.length_m, 0.0));
+      if (off.norm() < capsule.radius_m + rod.options().outer_radius_m) return true;
+    }
+    return false;
+  };
+  const Pose X_IT = X_TI.inverse();
+  for (std::size_t i = 0; i < rod.segments().size(); ++i) {
+    const RodSegment& segment = rod.segments()[i];
+    if (!segment.whole) continue;
+    const Vec3 a = X_IT * rod.nodes()[i].position, b = X_IT * rod.nodes()[i + 1].position;
+    const int pieces = pieces_of(segment, spacing_m);
+    for (int k = 0; k <= pieces; ++k)
+      if (inside(a + (static_cast<double>(k) / pieces) * (b - a))) return true;
+  }
+  return false;
 }
 
 double angle_in_rod(const ElasticRod& rod, double arc_m, const Vec3& direction_T) {

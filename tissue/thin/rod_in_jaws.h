@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "haptics/contact/tool_shape.h"
 #include "tissue/thin/elastic_rod.h"
 
 namespace trocar {
@@ -33,6 +34,9 @@ std::vector<double> arcs_between(const ElasticRod& rod, const Pose& X_TI, const 
 
 /// Length of the axis, as it is now, within the same space, m.
 double length_between(const ElasticRod& rod, const Pose& X_TI, const JawSpace& jaws, double reach_m);
+
+/// Whether the rod, looked at about every `spacing_m`, reaches into one of the tool's capsules.
+bool overlaps(const ElasticRod& rod, const Pose& X_TI, const ToolCapsules& tool, double spacing_m);
 
 /// Angle of a direction of T in the rod's material frame, from d1 towards d2, rad.
 double angle_in_rod(const ElasticRod& rod, double arc_m, const Vec3& direction_T);

@@ -118,8 +118,10 @@ void ClipJob::close(const Percept& percept, double dt_s, HandIntent& intent, Han
 
 /// As far as planned, or until it is felt that the structure is stiffer than expected.
 void ClipJob::tug(const HandSenses& senses, HandIntent& intent) {
-  if (-senses.touch_n() > pull_n_ && in_step_s_ < plan_.duration_s()) in_step_s_ = plan_.duration_s();
-  else if (in_step_s_ < plan_.duration_s()) intent.X_TI.p = plan_.at(in_step_s_);
+  if (-senses.touch_n() > pull_n_ && in_step_s_ < plan_.duration_s())
+    in_step_s_ = plan_.duration_s();
+  else if (in_step_s_ < plan_.duration_s())
+    intent.X_TI.p = plan_.at(in_step_s_);
   if (in_step_s_ > plan_.duration_s() + kTugFor) enter(Step::kOpen);
 }
 
@@ -132,7 +134,8 @@ void ClipJob::open(const Percept& percept, double dt_s, HandIntent& intent) {
   enter(++tries_ % kTriesInside == 0 ? Step::kWithdraw : Step::kCheck);
 }
 
-void ClipJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent, HandRandom& random) {
+void ClipJob::update(const Percept& percept, const HandSenses& senses, double dt_s, HandIntent& intent,
+                     HandRandom& random) {
   in_step_s_ += dt_s;
   switch (step_) {
     case Step::kWithdraw:

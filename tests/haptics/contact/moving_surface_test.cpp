@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 
 #include "haptics/contact/contact_renderer.h"
 #include "haptics/contact/segment_triangle.h"
@@ -129,6 +130,33 @@ TEST(MovingSurface, AToolThatRidesAlongDoesNotSlip) {
     ASSERT_FALSE(r.slipping);
     ASSERT_LT(r.F_I_T.force.head<2>().norm(), 1e-6);
   }
+}
+
+/// Where tissue gives way fast the tip is off both sides for a moment. It must come to lie on both again, not slide
+/// over one until the other throws it back.
+TEST(MovingSurface, BetweenTwoSidesThatRecedeTheForceIsThatOfBoth) {
+  constexpr double kDeep = 0.006, kSteep = 26 * std::numbers::pi / 180;
+  auto patch = std::make_unique<ContactPatch>();
+  patch->material[0] = {150, 0, 0, 0};
+  test::add_sheet(*patch, {-0.03, -0.02, 0}, {0.03, 0, 0}, {0, 0.04, 0}, 6);
+  test::add_sheet(*patch, {0, -0.02, 0}, {0.03 * std::cos(kSteep), 0, 0.03 * std::sin(kSteep)}, {0, 0.04, 0}, 6);
+  const auto at_rest = patch->vertex;
+  ContactRenderer renderer(ContactLaw::kProxy);
+  const auto felt = [&](double sunk_m, double tip_z_m) {
+    for (int i = 0; i < patch->vertex_count; ++i)
+      patch->vertex[std::size_t(i)] = at_rest[std::size_t(i)] - Vec3(0, 0, sunk_m);
+    ++patch->stamp;
+    return renderer.update(tip_down({-0.0002, 0.0003, tip_z_m}), Twist{}, *patch).F_I_T.force;
+  };
+  for (double z = 0.01; z > -kDeep; z -= 5e-5) felt(0, z);
+  Vec3 before = felt(0, -kDeep);
+  double most = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Vec3 now = felt(0.0035 * std::sin(20 * i * kPeriod), -kDeep);  // up to 70 mm/s
+    most = std::max(most, (now - before).norm());
+    before = now;
+  }
+  EXPECT_LT(most, 3 * 150 * 0.0035 * 20 * kPeriod) << "N a period: thrice what its spring gives";
 }
 
 TEST(MovingSurface, IdsOfAnotherTopologyNameNoAnchor) {

@@ -353,6 +353,23 @@ TEST(DuctSystem, TubesMadeFromRecordedNodesAndChangesLieWhereTheyLay) {
   EXPECT_LT(whole.nodes(), playback.nodes());
 }
 
+/// Jaws round a duct that are pushed on beyond it go through it: it must not throw the shaft out of itself.
+TEST(DuctSystem, ADuctThatTheJawsWereRoundIsFeltAgainOnlyWhereTheToolIsClearOfIt) {
+  Theatre t(InstrumentKind::kClipApplier);
+  t.settle();
+  const Vec3 at = t.middle(0);
+  const auto shown = [&](double aside_m, double deeper_m) {
+    t.step(from_above(at - Vec3(0, aside_m, kTip + deeper_m)), 0.012);
+    return t.triangles_of(1);
+  };
+  EXPECT_GT(shown(0.012, 0), 20) << "beside it";
+  for (double up = 0.03; up > 0; up -= 0.001) shown(0, -up);
+  EXPECT_EQ(shown(0, 0), 0) << "round it";
+  for (double deeper = 0; deeper < 0.012; deeper += 0.0005)
+    EXPECT_EQ(shown(0, deeper), 0) << deeper << " m beyond it, jaws or shaft through it";
+  EXPECT_GT(shown(0.012, 0), 20) << "beside it again";
+}
+
 TEST(DuctSystem, AChangeIsReadBackFromItsBytesAndWhatIsNoneIsRefused) {
   DuctChange change{DuctChange::Kind::kClipped, 1, 0.0123, 0.75, {1, 2, 3}, Mat3::Identity()};
   change.rotation_rod(0, 2) = -0.5;
