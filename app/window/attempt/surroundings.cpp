@@ -12,17 +12,16 @@
 namespace trocar {
 namespace {
 
-constexpr double kOverOrgan = 0.008;  // m: the foot is seen beside the tip, the way down is short
-constexpr double kOverBoard = 0.044;  // m: over blocks that stand, with one that hangs from the jaws
-constexpr double kOverBlock = 0.032;  // m over the board: the open jaws are clear of it
-constexpr double kAbove = 1;          // m: over everything
-constexpr double kOver = 0.0025;      // m beside the middle of the lit block: the open jaws go down round it
-constexpr double kNear = 0.006;       // m: the tip settles over it while the hand rests
-constexpr double kNearRing = 0.008;   // m: so does what is carried, over the middle of its ring
-constexpr double kSticks = 0.3;       // of sideways movements, while a block is between the jaws or in its ring
-constexpr double kPressed = 0.008;    // m that open jaws are pressed on tissue that they shall take
-constexpr double kTissueSpeed =
-    0.015;  // m/s up and down with tissue under or between the jaws: felt as a pull, no jerk
+constexpr double kOverOrgan = 0.008;    // m: the foot is seen beside the tip, the way down is short
+constexpr double kOverBoard = 0.044;    // m: over blocks that stand, with one that hangs from the jaws
+constexpr double kOverBlock = 0.032;    // m over the board: the open jaws are clear of it
+constexpr double kAbove = 1;            // m: over everything
+constexpr double kOver = 0.0025;        // m beside the middle of the lit block: the open jaws go down round it
+constexpr double kNear = 0.006;         // m: the tip settles over it while the hand rests
+constexpr double kNearRing = 0.008;     // m: so does what is carried, over the middle of its ring
+constexpr double kSticks = 0.3;         // of sideways movements, while a block is between the jaws or in its ring
+constexpr double kPressed = 0.008;      // m that open jaws are pressed on tissue that they shall take
+constexpr double kTissueSpeed = 0.015;  // m/s, with it under or between the jaws
 constexpr double kOnDisc = 0.8, kLeavesDisc = 1.6;  // of its radius: the tip goes down to it, and up again
 constexpr double kHangs = 0.002;                    // m of a block over the board before it is let go: no fall
 enum GroundNumber : int {
