@@ -14,6 +14,7 @@ constexpr double kFirstStep = 0.01;    // s
 constexpr double kLongestStep = 0.05;  // s: a gap in the states never counts as more
 constexpr double kFeed = 0.2;          // m of a vessel of the same radius: the resistance before it; unchecked
 constexpr double kBesideNick = 0.01;   // of a vessel's length
+constexpr double kAhead = 0.003;       // m from a tool within which tissue is told of it (a choice)
 constexpr double kLaidOff = 1;         // s after which a needle that was let go is replaced
 constexpr double kDry = 0.05;          // of a bleeder's lumen: less is closed, a four-hundredth of its flow
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
@@ -106,7 +107,7 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     patch.topology = soft_->topology();  // a cut in this step has changed it
     patch.hold = actions_->grip().hold();
     patch.grip = actions_->block();
-    actions_->grip().clear(patch);
+    clear_taken(patch);
     frame_.grip = actions_->grip().state();
     frame_.slipped_m = actions_->grip().slipped_m();
     actions_->tell(*soft_, frame_);
@@ -114,7 +115,6 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
     tell_touched(newest.contacts);
     tell_wounds();
     tell_gap(state.X_TI.p, tool, patch);
-    if (ducts_ || sheets_) clear_taken(patch);
     if (ducts_) add_ducts(patch);
     if (sheets_) add_sheets(patch);
     if (suturing_) add_suture(patch);
@@ -126,6 +126,12 @@ void TissueWorld::step(const HapticState& newest, bool present, ContactPatch& pa
 }
 
 void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool present) {
+  SolvedContacts contacts = newest.contacts;
+  if (contacts.count == 0) contacts.topology = soft_->topology();
+  if (present && contacts.topology == soft_->topology())
+    extraction_->look_ahead(
+        newest.stylus.X_TI, tool_capsules(tool.shape, newest.stylus.jaw_opening_m, {}), kAhead,
+        [this](std::int32_t triangle) { return felt(triangle); }, contacts);
   bring_needle(newest.stylus, tool, present);
   // Jaws that have a duct, needle or thread between them do nothing to the organ: to it they are a probe.
   const bool sews = suturing_ && suturing_->jaws_taken(newest.stylus, tool, present);
@@ -140,10 +146,10 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
     last_topology_ = soft_->topology() - 1;
     last_first_thin_triangle_ = first_thin_triangle_;
   }
-  const std::int32_t thin = first_thin(newest.contacts);
+  const std::int32_t thin = first_thin(contacts);
   if (ducts_) {
-    const DuctContacts contacts{newest.contacts, thin < 0 ? -1 : thin + sheet_triangles()};
-    ducts_->step(newest, contacts, sews ? probe : tool, present, *soft_, springs);
+    ducts_->step(newest, {contacts, thin < 0 ? -1 : thin + sheet_triangles()}, sews ? probe : tool, present, *soft_,
+                 springs);
     tell_vessels();
     open_bleeders();
     cut = cut || ducts_->grown();
@@ -157,7 +163,7 @@ void TissueWorld::step_soft(const HapticState& newest, const Tool& tool, bool pr
   if (cut) gather_felt();
   const Vec3 shift_T = bed_shift(breathing_, frame_.t_s);
   soft_->carry(shift_T);
-  soft_->step(newest.contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
+  soft_->step(contacts, present ? &newest.stylus.X_TI.p : nullptr, springs);
   actions_->after(newest, on_organ, present, std::span(springs).first(own), *soft_);
   if (suturing_) {
     suturing_->after(newest, tool, present, std::span(springs).subspan(before_suture), *soft_);
@@ -379,13 +385,16 @@ void TissueWorld::add_sheets(ContactPatch& patch) {
   frame_.surgery.tears += sheets_->tears();
 }
 
+bool TissueWorld::felt(std::int32_t triangle) const {
+  if (triangle < static_cast<std::int32_t>(soft_->rest()->triangles.size())) return actions_->grip().felt(triangle);
+  const std::int32_t thin = triangle - first_thin_triangle_;
+  if (thin < 0) return true;  // an adjacent organ
+  return thin < sheet_triangles() ? sheets_->felt(thin) : ducts_->felt(thin - sheet_triangles());
+}
+
 void TissueWorld::clear_taken(ContactPatch& patch) const {
-  const auto felt = [&](std::int32_t thin) {
-    return thin < sheet_triangles() ? sheets_->felt(thin) : ducts_->felt(thin - sheet_triangles());
-  };
   for (std::int32_t i = 0; i < patch.count;) {
-    const std::int32_t thin = patch.triangle[static_cast<std::size_t>(i)].id - first_thin_triangle_;
-    if (thin >= 0 && !felt(thin))
+    if (!felt(patch.triangle[static_cast<std::size_t>(i)].id))
       patch.triangle[static_cast<std::size_t>(i)] = patch.triangle[static_cast<std::size_t>(--patch.count)];
     else
       ++i;

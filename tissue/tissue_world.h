@@ -96,6 +96,8 @@ class TissueWorld final : public World {
   void set_needle_up(double dt_s);
   void add_suture(ContactPatch& patch);
   void tell_needle();
+  /// Whether a triangle of a patch is a contact: what the jaws hold or have been round is none.
+  bool felt(std::int32_t triangle) const;
   void clear_taken(ContactPatch& patch) const;
   void keep_changes();
   void follow(std::span<const SurfacePlace> places_T);

@@ -7,7 +7,6 @@
 
 #include "haptics/contact/half_spaces.h"
 #include "haptics/contact/ring_contact.h"
-#include "haptics/contact/segment_triangle.h"
 
 namespace trocar {
 namespace {
@@ -31,6 +30,7 @@ constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a cha
 constexpr double kIdleTurn = 0.009;      // rad a period that the force may turn as the proxy slides on: 0.5 deg
 constexpr double kRounding = 3e-3;       // m that the instrument moves for one rad more
 constexpr int kTurnHalvings = 5;         // of the way that the proxy slides
+constexpr double kParting = 0.05;        // s over which a contact that is none any more is let go (a choice)
 
 }  // namespace
 
@@ -48,6 +48,7 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   for (int c = 1; c < tool_.count; ++c) thinnest_m_ = std::min(thinnest_m_, tool_.at[c].radius_m);
   const ContactPatch& patch = glide_.follow(newest, contacts_, stored_j_, thinnest_m_);
   near_.travel(glide_.moved_m());
+  part_with_lost(X_TI, patch);
   contacts_.topology = patch.topology;
   contacts_.count = 0;
   stored_j_ = 0;
@@ -55,8 +56,51 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   ContactResult result = law_ == ContactLaw::kThesis ? thesis_law(X_TI, patch) : proxy_law(X_TI, V_TI_T, patch);
   if (patch.hold.stiffness_n_per_m > 0) add_hold(X_TI, patch.hold, result);
   if (newest.ring.count > 1) add_ring(X_TI, V_TI_T, newest.ring, result);
+  add_parting(X_TI, result);
   if (glide_.force_share() < 1) fade(result);
   return result;
+}
+
+void ContactRenderer::part_with_lost(const Pose& X_TI, const ContactPatch& patch) {
+  if (patch.glide_s <= 0 || patch.stamp == parted_stamp_) return;
+  parted_stamp_ = patch.stamp;
+  if (contacts_.topology != patch.topology) return;
+  Wrench lost;
+  double gone = 0, all = 0;
+  const auto end = patch.triangle.begin() + patch.count;
+  for (int i = 0; i < contacts_.count; ++i) {
+    const SolvedContact& contact = contacts_.at[i];
+    const double force = contact.force_T.dot(contact.normal_T);
+    all += force;
+    if (std::any_of(patch.triangle.begin(), end,
+                    [&](const PatchTriangle& triangle) { return triangle.id == contact.place.triangle; }))
+      continue;
+    gone += force;
+    lost.force += contact.force_T;
+    lost.moment += (contact.tool_T - X_TI.p).cross(contact.force_T);
+  }
+  if (gone <= 0) return;
+  parting_ = parting_ * parting_share_ + lost;
+  parting_j_ = (parting_share_ > 0 ? parting_j_ : 0) + stored_j_ * gone / all;
+  parting_share_ = 1;
+  parting_tip_ = last_goal_;
+}
+
+/// It does no more on the tool than the contacts had stored.
+void ContactRenderer::add_parting(const Pose& X_TI, ContactResult& result) {
+  if (parting_share_ <= 0) return;
+  parting_j_ -= parting_share_ * parting_.force.dot(X_TI.p - parting_tip_);
+  parting_tip_ = X_TI.p;
+  parting_share_ = parting_j_ > 0 ? parting_share_ - glide_.period_s() / kParting : 0;
+  if (parting_share_ <= 0) return;
+  const Wrench left = parting_ * parting_share_;
+  result.F_I_T = result.F_I_T + left;
+  result.spring_I_T = result.spring_I_T + left;
+  result.stored_j += parting_j_;
+  if (result.contact) return;
+  result.contact = result.tip_contact = true;
+  result.point_T = X_TI.p;
+  result.normal_T = parting_.force.normalized();
 }
 
 void ContactRenderer::add_hold(const Pose& X_TI, const GripHold& hold, ContactResult& result) {
@@ -206,18 +250,23 @@ double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactP
   return way;
 }
 
+std::pair<ClosestPair, double> ContactRenderer::measure(int n, const ContactPatch& patch) {
+  const NearPairs::Pair pair = near_.at(n);
+  const CapsuleAxis& axis = axes_[pair.capsule];
+  const ClosestPair closest =
+      closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, patch.corners(pair.index));
+  const double gap = closest.distance - tool_.at[pair.capsule].radius_m;
+  near_.measured(n, gap);
+  return {closest, gap};
+}
+
 /// Pushed out from there it would lose the surface that it slides on, and slide back in the next period.
 double ContactRenderer::overshoot(const Vec3& along, double least_cosine, const ContactPatch& patch) {
   near_.keep_up({tool_, axes_, proxy_}, patch, kSlideSlack);
   double back = 0;
   for (int n = 0; n < near_.count(); ++n) {
     if (!near_.due(near_.at(n), 0)) continue;
-    const NearPairs::Pair pair = near_.at(n);
-    const CapsuleAxis& axis = axes_[pair.capsule];
-    const ClosestPair closest =
-        closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, patch.corners(pair.index));
-    const double gap = closest.distance - tool_.at[pair.capsule].radius_m;
-    near_.measured(n, gap);
+    const auto [closest, gap] = measure(n, patch);
     if (gap > -kSlideSlack || closest.distance < 1e-9) continue;
     const double against = along.dot(closest.on_triangle - closest.on_segment) / closest.distance;
     if (against > least_cosine) back = std::max(back, -gap / against);
@@ -370,12 +419,7 @@ double ContactRenderer::sweep(const ContactPatch& patch, double slack) {
   for (int n = 0; n < near_.count(); ++n) {
     if (!near_.due(near_.at(n), slack)) continue;
     const NearPairs::Pair pair = near_.at(n);
-    const CapsuleAxis& axis = axes_[pair.capsule];
-    const Capsule& capsule = tool_.at[pair.capsule];
-    const ClosestPair closest =
-        closest_segment_triangle(proxy_ + axis.front, proxy_ + axis.back, patch.corners(pair.index));
-    const double gap = closest.distance - capsule.radius_m;
-    near_.measured(n, gap);
+    const auto [closest, gap] = measure(n, patch);
     if (gap > slack) continue;
     // On the axis itself the direction is undefined: the surface's own normal leads out.
     Vec3 normal = patch.triangle[pair.index].normal;
@@ -386,7 +430,7 @@ double ContactRenderer::sweep(const ContactPatch& patch, double slack) {
       if (near_.keep_up(placed, patch, slack)) n = near_.first_after(pair) - 1;  // pushed further than the list reached
     }
     deepest = std::max(deepest, -gap);
-    const bool at_tip = capsule.foremost && closest.along == 0;
+    const bool at_tip = tool_.at[pair.capsule].foremost && closest.along == 0;
     add_touch({normal, closest.on_triangle, gap, pair.index, pair.capsule, at_tip});
   }
   return deepest;

@@ -25,6 +25,7 @@
 #include "haptics/contact/contact_friction.h"
 #include "haptics/contact/gliding_patch.h"
 #include "haptics/contact/near_pairs.h"
+#include "haptics/contact/segment_triangle.h"
 #include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
 #include "haptics/exchange/solved_contacts.h"
@@ -59,6 +60,7 @@ class ContactRenderer {
     near_.forget();
     glide_.forget();
     friction_.reset();
+    parting_share_ = 0;
   }
 
   /// Another instrument takes the place of the one in use, where the proxy is: it must fill no more than that one did.
@@ -89,6 +91,9 @@ class ContactRenderer {
   void add_hold(const Pose& X_TI, const GripHold& hold, ContactResult& result);
   /// What the wire does on a ring round it (ring_contact.h).
   void add_ring(const Pose& X_TI, const Twist& V_TI_T, const RingOnWire& ring, ContactResult& result);
+  /// What a new patch has no more, of what was pressed, is let go slowly: jaws that take a fold press on it still.
+  void part_with_lost(const Pose& X_TI, const ContactPatch& patch);
+  void add_parting(const Pose& X_TI, ContactResult& result);
   /// Weakens everything by what is left of the force without new patches.
   void fade(ContactResult& result);
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);
@@ -101,6 +106,8 @@ class ContactRenderer {
   /// By how much the force has turned since the last period, rad; both carry some.
   double turned() const;
   ContactResult proxy_law(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& patch);
+  /// The n-th near pair as the proxy lies, and the gap between the surfaces, m.
+  std::pair<ClosestPair, double> measure(int n, const ContactPatch& patch);
   /// How far back along its way the proxy first met what it has run into, m.
   /// @param least_cosine between its way and the way into the surface that counts
   double overshoot(const Vec3& along, double least_cosine, const ContactPatch& patch);
@@ -143,6 +150,10 @@ class ContactRenderer {
   NearPairs near_;
   GlidingPatch glide_;
   double stored_j_ = 0;  ///< of the normal springs, in the last period
+  Wrench parting_;       ///< of contacts that are none any more, about the tip, when they were lost
+  double parting_share_ = 0, parting_j_ = 0;  ///< what is left of it, and of the energy that it held
+  Vec3 parting_tip_ = Vec3::Zero();           ///< where the tip was a period ago
+  std::uint64_t parted_stamp_ = 0;            ///< of the patch that was looked through last
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;
   std::array<std::int32_t, kMaxPressedPlaces> carrying_{};

@@ -240,10 +240,11 @@ HandIntent SkilledHand::move_work(HandWork& work, const Percept& percept, double
   return intent;
 }
 
-/// Until the next cue is noticed the person still attends to the old target.
+/// Until the next cue is noticed the person still attends to the old target, but sees what is in hand, and where.
 Percept SkilledHand::attend(const Percept& percept) {
   if (senses_.seen() == task_) attended_ = percept;
   Percept view = attended_;
+  view.instrument = percept.instrument;
   view.tip_T = percept.tip_T;
   view.R_TI = percept.R_TI;
   view.jaw_opening_m = percept.jaw_opening_m;

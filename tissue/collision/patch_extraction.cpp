@@ -4,7 +4,17 @@
 #include <array>
 #include <utility>
 
+#include "haptics/contact/segment_triangle.h"
+
 namespace trocar {
+namespace {
+
+QuerySegment axis_of(const Pose& X_TI, const Capsule& capsule) {
+  const Pose X_TC = X_TI * capsule.X_IC;
+  return {X_TC.p, X_TC.p - X_TC.R.col(2) * capsule.length_m};
+}
+
+}  // namespace
 
 PatchExtraction::PatchExtraction(const TriangleSurface& surface, std::span<const std::int32_t> material)
     : tree_(surface), material_(material), place_(surface.vertices.size()) {
@@ -14,10 +24,7 @@ PatchExtraction::PatchExtraction(const TriangleSurface& surface, std::span<const
 void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m) {
   const ToolCapsules capsules = tool_capsules(tool, jaw_opening_m, patch.held);
   std::array<QuerySegment, kMaxCapsules> axes;
-  for (int c = 0; c < capsules.count; ++c) {
-    const Pose X_TC = X_TI * capsules.at[c].X_IC;
-    axes[c] = {X_TC.p, X_TC.p - X_TC.R.col(2) * capsules.at[c].length_m};
-  }
+  for (int c = 0; c < capsules.count; ++c) axes[c] = axis_of(X_TI, capsules.at[c]);
   const std::int64_t left_over =
       tree_.nearest({axes.data(), static_cast<std::size_t>(capsules.count)}, kPatchRadius, kMaxPatchTriangles, hits_);
   patch.clear();
@@ -34,8 +41,47 @@ void PatchExtraction::extract(const Pose& X_TI, const ToolShape& tool, ContactPa
     const auto& v = surface.vertices;
     patch.triangle[i] = {(v[b] - v[a]).cross(v[c] - v[a]).normalized(),
                          id,
-                         material_.empty() ? 0 : material_[static_cast<std::size_t>(id)],
+                         material_of(id),
                          {place_vertex(a, patch), place_vertex(b, patch), place_vertex(c, patch)}};
+  }
+}
+
+void PatchExtraction::look_ahead(const Pose& X_TI, const ToolCapsules& tool, double reach_m,
+                                 const std::function<bool(std::int32_t)>& felt, SolvedContacts& contacts) {
+  const TriangleSurface& surface = tree_.surface();
+  const auto known = static_cast<std::int32_t>(surface.triangles.size());
+  std::array<bool, kMaxPatchMaterials> touched{};
+  for (std::int32_t i = 0; i < contacts.count; ++i) {
+    const std::int32_t triangle = contacts.at[static_cast<std::size_t>(i)].place.triangle;
+    if (triangle >= 0 && triangle < known) touched[static_cast<std::size_t>(material_of(triangle))] = true;
+  }
+  for (int c = 0; c < tool.count; ++c) {
+    const Capsule& capsule = tool.at[c];
+    const QuerySegment axis = axis_of(X_TI, capsule);
+    if (!axis.a.allFinite() || !axis.b.allFinite()) return;
+    tree_.within({&axis, 1}, capsule.radius_m + reach_m, hits_);
+    std::array<const SurfaceTree::Hit*, kMaxPatchMaterials> nearest{};
+    for (const SurfaceTree::Hit& hit : hits_) {
+      const auto material = static_cast<std::size_t>(material_of(hit.triangle));
+      if (!touched[material] && (nearest[material] == nullptr || hit < *nearest[material]) && felt(hit.triangle))
+        nearest[material] = &hit;
+    }
+    for (const SurfaceTree::Hit* hit : nearest) {
+      // Half-way to the axis, or beyond it, its side is not told.
+      if (hit == nullptr || hit->distance < capsule.radius_m / 2 || contacts.count == kMaxContacts) continue;
+      const auto& [i, j, k] = surface.triangles[static_cast<std::size_t>(hit->triangle)];
+      const std::array<Vec3, 3> corners{surface.vertices[static_cast<std::size_t>(i)],
+                                        surface.vertices[static_cast<std::size_t>(j)],
+                                        surface.vertices[static_cast<std::size_t>(k)]};
+      const ClosestPair closest = closest_segment_triangle(axis.a, axis.b, corners);
+      SolvedContact& ahead = contacts.at[static_cast<std::size_t>(contacts.count++)];
+      ahead.place = {hit->triangle, barycentric_of(closest.on_triangle, corners)};
+      ahead.normal_T = (closest.on_segment - closest.on_triangle) / closest.distance;
+      ahead.force_T.setZero();
+      ahead.anchor = {};
+      ahead.tool_T = closest.on_segment - capsule.radius_m * ahead.normal_T;
+      ahead.share = 1;
+    }
   }
 }
 

@@ -8,11 +8,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "haptics/contact/tool_shape.h"
 #include "haptics/exchange/contact_patch.h"
+#include "haptics/exchange/solved_contacts.h"
 #include "tissue/collision/surface_tree.h"
 
 namespace trocar {
@@ -35,7 +37,17 @@ class PatchExtraction {
   /// @param patch its held object is part of the tool
   void extract(const Pose& X_TI, const ToolShape& tool, ContactPatch& patch, double jaw_opening_m = 0);
 
+  /// Light tissue that a tool has held aside and lost for a tick goes millimetres in a step, through the tool: what it
+  /// may meet there is told it before. Of each material of which `contacts` has none, the triangle nearest to each
+  /// capsule becomes a contact without force: it pushes if the tissue comes to it.
+  /// @param reach_m gap up to which. @param felt whether a triangle is a contact at all
+  void look_ahead(const Pose& X_TI, const ToolCapsules& tool, double reach_m,
+                  const std::function<bool(std::int32_t)>& felt, SolvedContacts& contacts);
+
  private:
+  std::int32_t material_of(std::int32_t triangle) const {
+    return material_.empty() ? 0 : material_[static_cast<std::size_t>(triangle)];
+  }
   /// Place of the surface's vertex in the patch, which gets it when it has it not.
   std::int16_t place_vertex(std::int32_t vertex, ContactPatch& patch);
 

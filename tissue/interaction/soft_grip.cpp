@@ -164,15 +164,4 @@ void SoftGrip::feel(const Pose& X_TI, std::span<const SoftSpring> springs, const
   hold_.anchor_T = X_TI * hold_.point_I + pull_T_ / hold_.stiffness_n_per_m;
 }
 
-void SoftGrip::clear(ContactPatch& patch) const {
-  if (no_contact_.empty()) return;
-  for (std::int32_t i = 0; i < patch.count;) {
-    const std::int32_t id = patch.triangle[static_cast<std::size_t>(i)].id;
-    if (id < static_cast<std::int32_t>(no_contact_.size()) && no_contact_[static_cast<std::size_t>(id)])
-      patch.triangle[static_cast<std::size_t>(i)] = patch.triangle[static_cast<std::size_t>(--patch.count)];
-    else
-      ++i;
-  }
-}
-
 }  // namespace trocar

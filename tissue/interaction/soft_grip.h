@@ -50,8 +50,10 @@ class SoftGrip {
   Vec3 pull_T() const { return pull_T_; }          ///< of the tissue on the jaws, N
   GripBlock block() const { return block_; }
   GripHold hold() const { return hold_; }
-  /// Takes the tissue that is no contact out of a patch.
-  void clear(ContactPatch& patch) const;
+  /// Whether a triangle of the organ is a contact.
+  bool felt(std::int32_t triangle) const {
+    return no_contact_.empty() || !no_contact_[static_cast<std::size_t>(triangle)];
+  }
 
  private:
   struct Place {

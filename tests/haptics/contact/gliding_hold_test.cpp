@@ -64,5 +64,50 @@ TEST(GlidingHold, ComesAndGoesWithoutALeap) {
   EXPECT_LE(held.most(Vec3::Zero(), 1e-9), force.norm() + 1e-9);
 }
 
+/// Tissue that is pressed and, taken by the jaws, no contact in the next patch.
+TEST(GlidingHold, APressedPlaceThatIsNoContactAnyMoreIsLetGoSlowlyAndGivesNoEnergy) {
+  const ToolShape tool;
+  const auto patch = std::make_unique<ContactPatch>();
+  test::flat_patch(*patch, 0, 0.04, 6);
+  patch->material[0] = {200, 0, 0, 0};
+  patch->glide_s = kGlide_s;
+  patch->moving = true;
+  patch->velocity.fill(Vec3::Zero());
+  // Up with the force, as fast as a hand that is pushed away.
+  for (const double speed : {0.0, 0.02, 1.0}) {
+    ContactRenderer renderer{ContactLaw::kProxy, tool};
+    Vec3 tip(0, 0, tool.radius_m + 0.001);
+    ContactResult last;
+    const auto period = [&](double z) {
+      tip.z() = z;
+      return renderer.update(test::tip_down(tip), {}, *patch);
+    };
+    const std::int32_t count = patch->count;
+    for (int i = 0; i < 100; ++i) {
+      if (i % kPeriods == 0) ++patch->stamp;
+      last = period(tool.radius_m + 0.001 - 0.00004 * i);
+    }
+    EXPECT_GT(last.F_I_T.force.z(), 0.5);
+    const double stored = last.stored_j;
+    ++patch->stamp;
+    patch->count = 0;
+    double work = 0, most_drop = 0;
+    for (int i = 0; i < 60; ++i) {
+      const double before = last.F_I_T.force.z(), z = tip.z() + speed * 1e-3;
+      last = period(z);
+      work += last.F_I_T.force.z() * speed * 1e-3;
+      most_drop = std::max(most_drop, before - last.F_I_T.force.z());
+      if (i % kPeriods == kPeriods - 1) ++patch->stamp;
+    }
+    EXPECT_LE(work, stored) << speed;
+    EXPECT_EQ(last.F_I_T.force, Vec3::Zero()) << speed;
+    if (speed < 0.1) {
+      EXPECT_LT(most_drop, 0.03) << speed << ": it was all of it in one period";
+    }
+    patch->count = count;
+    ++patch->stamp;
+  }
+}
+
 }  // namespace
 }  // namespace trocar::gliding_hold_test

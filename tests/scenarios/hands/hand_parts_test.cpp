@@ -386,5 +386,31 @@ TEST(SkilledHand, PersonsDifferBySeedOnlyWhenAPopulationIsAskedFor) {
   EXPECT_EQ(travelled(1, 0.2), travelled(1, 0.2));
 }
 
+/// The next cue comes with the instrument: the one that is slow to notice it must not exchange that again.
+TEST(SkilledHand, PressesTheExchangeSwitchOnlyUntilTheInstrumentIsSeenInHand) {
+  HandSkill skill;
+  skill.approach_speed_mps = 0.02;
+  skill.pause_s = 1;
+  SkilledHand hand(skill, 1);
+  Percept percept = ready_at(Vec3(0, 0, 0.05));
+  percept.cue = Cue::kExchange;
+  percept.target_index = 0;
+  percept.target_radius_m = 0.01;
+  percept.instrument = InstrumentKind::kGrasper;
+  percept.asked_instrument = InstrumentKind::kHook;
+  int presses = 0;
+  bool pressed = false;
+  for (int i = 0; i < 6000; ++i) {
+    const HandIntent intent = hand.update(percept, kDt);
+    presses += intent.exchange && !pressed;
+    pressed = intent.exchange;
+    if (presses == 0) continue;
+    percept.instrument = InstrumentKind::kHook;
+    percept.asked_instrument.reset();
+    percept.cue = Cue::kHook;
+  }
+  EXPECT_EQ(presses, 1);
+}
+
 }  // namespace
 }  // namespace trocar::hand_parts_test

@@ -262,6 +262,40 @@ TEST_F(Patch, FarAwayNothingIsFoundAndMaterialIsLeftAlone) {
   EXPECT_EQ(patch->grip.stiffness_n_per_m, 500);
 }
 
+/// A plane of one material and another, further away, below the first.
+TEST_F(Patch, LooksAheadForTheNearestOfEachMaterialThatIsNotTouched) {
+  TriangleSurface surface;
+  std::vector<std::int32_t> material;
+  for (const double z : {0.0, -0.001, -0.020}) {
+    const auto first = static_cast<std::int32_t>(surface.vertices.size());
+    for (const Vec3& v : {Vec3(-0.03, -0.03, z), Vec3(0.03, -0.03, z), Vec3(0, 0.03, z)}) surface.vertices.push_back(v);
+    surface.triangles.push_back({first, first + 1, first + 2});
+    material.push_back(first / 3);
+  }
+  PatchExtraction extraction(surface, material);
+  const ToolCapsules tool = tool_capsules({}, 0, {});
+  const double radius = tool.at[0].radius_m;
+  const auto all = [](std::int32_t) { return true; };
+  SolvedContacts contacts;
+  extraction.look_ahead(test::tip_down({0.001, 0, radius + 0.002}), tool, 0.0025, all, contacts);
+  ASSERT_EQ(contacts.count, 1) << "the second is 3 mm away";
+  EXPECT_EQ(contacts.at[0].place.triangle, 0);
+  EXPECT_LT((contacts.at[0].normal_T - Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((contacts.at[0].tool_T - Vec3(0.001, 0, 0.002)).norm(), 1e-9);
+  EXPECT_EQ(contacts.at[0].force_T, Vec3::Zero());
+  extraction.look_ahead(test::tip_down({0.001, 0, radius + 0.002}), tool, 0.004, all, contacts);
+  ASSERT_EQ(contacts.count, 2) << "of the first there is one";
+  EXPECT_EQ(contacts.at[1].place.triangle, 1);
+  contacts.count = 0;
+  extraction.look_ahead(
+      test::tip_down({0.001, 0, radius + 0.002}), tool, 0.004, [](std::int32_t t) { return t == 1; }, contacts);
+  ASSERT_EQ(contacts.count, 1) << "the first is no contact";
+  EXPECT_EQ(contacts.at[0].place.triangle, 1);
+  contacts.count = 0;
+  extraction.look_ahead(test::tip_down({0.001, 0, 0.4 * radius}), tool, 0.0005, all, contacts);
+  EXPECT_EQ(contacts.count, 1) << "of the first the side is not told";
+}
+
 TEST_F(Patch, SameInputSamePatch) {
   const TriangleSurface surface = test::lumpy_sphere(5, 0.06);
   PatchExtraction one(surface), two(surface);
