@@ -150,8 +150,9 @@ Vec3 PalpateJob::next_lump(const Places& known, const Percept& percept) const {
       best = at;
       most = lump.dot(left) / lump.norm();
     };
-    for (double x = -half_m; x <= half_m; x += kLumpStep)
-      for (double y = -half_m; y <= half_m; y += kLumpStep) think_of(middle_T + Vec3(x, y, 0));
+    const double felt_m = half_m - pitch_m_ / 2;  // farther out a lump and the plane would be taken for each other
+    for (double x = -felt_m; x <= felt_m; x += kLumpStep)
+      for (double y = -felt_m; y <= felt_m; y += kLumpStep) think_of(middle_T + Vec3(x, y, 0));
     for (double step = kLumpStep / 2; step > kLumpStep / 8; step /= 2) {
       const Vec3 coarse = best;
       for (const double x : {-step, 0.0, step})

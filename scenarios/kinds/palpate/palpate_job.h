@@ -52,7 +52,7 @@ class PalpateJob : public HandWork {
   Vec3 raster_place(const Percept& percept, int index) const;
   void judge(HandRandom& random);
   /// Middle of the lump that explains most of what was felt, beside those that are known: over a plane, for an organ is
-  /// firmer towards one side than towards the other, lie lumps of a known width.
+  /// firmer towards one side than towards the other, lie lumps of a known width; none farther out than was pressed.
   Vec3 next_lump(const Places& known, const Percept& percept) const;
   using Curved = Eigen::Matrix<double, 6, 1>;  ///< 1, x, y, x^2, xy, y^2, and factors of them
   Curved touched_surface(const Vec3& middle_T, double half_m) const;
