@@ -266,6 +266,7 @@ bool is_force_metric(std::string_view name) {
 Trace cut_trace(const Trace& trace, double start_s, double end_s) {
   Trace cut;
   cut.rate_hz = trace.rate_hz;
+  cut.samples.reserve(trace.samples.size());
   std::copy_if(trace.samples.begin(), trace.samples.end(), std::back_inserter(cut.samples),
                [&](const TraceSample& sample) { return sample.t_s >= start_s && sample.t_s <= end_s; });
   return cut;

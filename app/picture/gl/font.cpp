@@ -66,7 +66,8 @@ FontSet::~FontSet() = default;
 FontSet::FontSet(FontSet&&) noexcept = default;
 
 const Glyph& FontSet::glyph(char32_t code, int size, bool bold) {
-  const auto [place, inserted] = glyphs_.try_emplace({code, size, bold});
+  const std::uint64_t key = std::uint64_t{code} << 32 | static_cast<std::uint32_t>(size) << 1 | (bold ? 1u : 0u);
+  const auto [place, inserted] = glyphs_.try_emplace(key);
   Glyph& glyph = place->second;
   if (!inserted) return glyph;
   FT_Face face = faces_->face[bold ? 1 : 0];

@@ -5,10 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
-#include <tuple>
+#include <unordered_map>
 #include <vector>
 
 namespace trocar {
@@ -41,7 +40,7 @@ class FontSet {
  private:
   struct Faces;
   std::unique_ptr<Faces> faces_;
-  std::map<std::tuple<char32_t, int, bool>, Glyph> glyphs_;
+  std::unordered_map<std::uint64_t, Glyph> glyphs_;  ///< by code, size and face
 };
 
 /// Code points of UTF-8 text; each malformed byte gives U+FFFD.
