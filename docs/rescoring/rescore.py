@@ -450,6 +450,7 @@ METRICS = {
     "search_share": search_share,
     "clips_correct_share": clip_metric(clips_correct_share),
     "clip_errors": clip_metric(clip_errors),
+    "clip_angle_deg": lambda a: mean_value(a, "CLIP_SET"),
     "cut_off_middle_m": lambda a: mean_value(a, "DIVIDED"),
     "entry_error_m": mean_of_pairs("BITE_BEGUN"),
     "exit_error_m": mean_of_pairs("BITE_THROUGH"),

@@ -191,6 +191,8 @@ constexpr MetricDefinition kCatalogue[] = {
      kLess, kErrors},
     {"clip_errors", "1", "clips wasted, wrong structures touched, cuts too near to a clip",
      "count of CLIP_WASTED, WRONG_STRUCTURE and DIVIDED that is not info", kLess, kErrors},
+    {"clip_angle_deg", "deg", "how far a clip that counts lies off straight across, mean over these clips",
+     "mean of CLIP_SET", kLess},
     {"cut_off_middle_m", "m", "distance of a cut from the middle between the clips beside it, mean over structures",
      "mean of DIVIDED", kLess},
     {"entry_error_m", "m",

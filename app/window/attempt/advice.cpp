@@ -181,6 +181,7 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
     return words("Try next: before each snip stop over the line and see both tips on it; roll before you press.");
   if (m == "hard_pulls")
     return words("Try next: let the tips only just dent the gauze, and open the blades before you move on.");
+  if (m == "clip_angle_deg") return words("Try next: before you close, roll until the jaws lie straight across.");
   if (m == "cut_off_middle_m") return words("Try next: look at both clips and lay the blades half-way between them.");
   if (m == "force_max_n" || (m == "excess_events" && pulls))
     return words("Try next: lift in one slow move, and stop where the pull is right.");
@@ -281,6 +282,7 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
   if (m == "needle_redos") return words(row.raw == 1 ? "Once done again." : "{0} times done again.", {row.value});
   if (m == "spurted_ml") return words("{0} of blood lost.", {row.value});
   if (m == "strand_current_s") return words("{0} of current for each strand on average.", {row.value});
+  if (m == "clip_angle_deg") return words("Clips {0} off straight across on average.", {row.value});
   if (m == "cut_off_middle_m") return words("Cut {0} off the middle on average.", {row.value});
   if (m == "objects_done_share") return count_of_placing(a);
   if (m == "horizon_share") return words("Level for {0} of the time.", {row.value});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tissue/thin/duct_system.h"
 
@@ -147,7 +148,7 @@ void ClipTask::judge_clip(const DuctMark& clip, EventLog& log) {
     log.add(event_type::kClipWasted, Severity::kMinor, -1, clip.arc_m, "m");
     return blame(fault, log);
   }
-  log.add(event_type::kClipSet, Severity::kInfo, aim, clip.arc_m, "m");
+  log.add(event_type::kClipSet, Severity::kInfo, aim, clip.angle_rad * 180 / std::numbers::pi, "deg");
   finish_step(aim, log);
 }
 

@@ -10,7 +10,7 @@
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit) of each step; NAMED (s of touch); WRONG_STRUCTURE: another than asked
 // was touched so long (index of the duct), critical when a clip or cut lies on what must be spared (m along it);
-// CLIP_SET (m along the structure) of the step that it fills; CLIP_WASTED: a clip that does not count, or came off
+// CLIP_SET (deg off straight across) of the step that it fills; CLIP_WASTED: a clip that does not count, or came off
 // (m along), or a closing that the applier refused; DIVIDED (m off the middle between the clips beside it), minor where
 // it is nearer to one than it should; a critical CUT_TOO_SOON (clips that were on before and beyond it, in tenths:
 // 2.1 are two and one) for a cut, a nick or a tear without enough of them; a critical BLEEDING (mL) once. Frame T, SI.

@@ -72,8 +72,8 @@ struct Bench {
   void cut(int duct, double arc_mm, DuctMark::Kind kind = DuctMark::Kind::kCut) {
     mark({.kind = kind, .duct = duct, .arc_m = 1e-3 * arc_mm});
   }
-  void clip_all(int duct) {
-    for (const double arc : {9.3, 14.3, 23.8}) clip(duct, arc);
+  void clip_all(int duct, double angle_deg = 0) {
+    for (const double arc : {9.3, 14.3, 23.8}) clip(duct, arc, angle_deg);
   }
   long count(EventType type) const {
     const auto& events = director.events();
@@ -107,7 +107,7 @@ TEST(ClipTask, IsDoneOnceBothAreNamedClippedAndCutBetween) {
   EXPECT_EQ(bench.director.status().cue, Cue::kClip);
   EXPECT_EQ(bench.director.status().demand.instrument, InstrumentKind::kClipApplier);
   bench.clip_all(kDuct);
-  bench.clip_all(kArtery);
+  bench.clip_all(kArtery, 6);
   EXPECT_EQ(bench.director.status().cue, Cue::kSever);
   EXPECT_EQ(bench.director.status().demand.instrument, InstrumentKind::kScissors);
   bench.cut(kDuct, 19.05);
@@ -116,6 +116,7 @@ TEST(ClipTask, IsDoneOnceBothAreNamedClippedAndCutBetween) {
   EXPECT_EQ(bench.done(), kClipAims);
   EXPECT_EQ(bench.metric("clips_correct_share"), 1);
   EXPECT_EQ(bench.metric("clip_errors"), 0);
+  EXPECT_NEAR(bench.metric("clip_angle_deg"), 3, 1e-9);
   EXPECT_NEAR(bench.metric("cut_off_middle_m"), 0.00025, 1e-9);
   EXPECT_EQ(bench.critical(), 0);
 }
@@ -283,7 +284,7 @@ TEST(ClipTask, MuchBloodIsCriticalOnce) {
 
 TEST(ClipTask, WithoutATryNothingIsMeasured) {
   Bench bench;
-  for (const char* name : {"clips_correct_share", "clips_wasted", "clip_errors", "cut_off_middle_m"})
+  for (const char* name : {"clips_correct_share", "clips_wasted", "clip_errors", "clip_angle_deg", "cut_off_middle_m"})
     EXPECT_EQ(bench.metric(name), -1) << name;
   EXPECT_EQ(bench.done(), 0);
 }
