@@ -73,7 +73,13 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
   const NeedleSight& needle = frame.needle;
   const auto of_pair = [&](int half) { return static_cast<std::size_t>(half * pairs_ + pair_); };
   const bool in = needle.bite_count > 0;
-  if (in_ && (!in || needle.bite[0].number != bite_.number)) end_bite(frame, log);
+  const bool left = in_ && (!in || needle.bite[0].number != bite_.number);
+  if (left && in && (threaded_ || frame.suture.stitches > stitches_)) {
+    threaded_ = true;
+    bite_.number = needle.bite[0].number;
+  } else if (left) {
+    end_bite(frame, log);
+  }
   if (finished()) return;
   if (in && !in_ && !drawn_) {
     bite_ = needle.bite[0];
@@ -111,12 +117,13 @@ void NeedleTask::tell_bite(EventLog& log) {
 }
 
 void NeedleTask::end_bite(const TissueFrame& frame, EventLog& log) {
-  in_ = false;
+  const bool stitched = threaded_ || frame.suture.stitches > stitches_;
+  in_ = threaded_ = false;
   if (frame.suture.tears > tears_) {
     log.add(event_type::kTear, Severity::kCritical, pair_, bite_.load_n, "N");
     return blame({"The tissue is torn", "Turn the needle about its circle, never across it."}, log);
   }
-  if (frame.suture.stitches == stitches_) {
+  if (!stitched) {
     if (!told_in_) return;
     log.add(event_type::kBiteUndone, Severity::kMinor, pair_);
     grips_ = std::min(grips_, 1);
@@ -170,6 +177,7 @@ double NeedleTask::out_m(const TaskInput& input) const {
 
 NeedleTask::Step NeedleTask::step_of(const TaskInput& input) const {
   if (drawn_ || !input.tissue || !input.tissue->needle.there) return Step::kTake;
+  if (threaded_) return held_ ? Step::kDraw : Step::kTakePoint;
   if (!in_ || !bite_.through) return held_ ? Step::kDrive : Step::kTake;
   const double out = out_m(input);
   if (held_ && (1 - input.tissue->needle.held_share) * own_.shape.length_m < out) return Step::kDraw;

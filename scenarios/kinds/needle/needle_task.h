@@ -10,9 +10,9 @@
 // over the surface, and no bite; BITE_THROUGH (m from the second) as it has come out; both minor beyond the level's
 // tolerance; BITE_UNDONE: drawn back out, which is to be done again; NEEDLE_DRAWN (deg): angle between the
 // point's way in and that of a circle through both dots across the shaft, and mean angle between the point's way
-// through the tissue and its own direction, together; NEEDLE_LOST (m from the region's centre): let go and in no tissue
-// for so long that another takes its place; critical outside the field. A critical TEAR (N across the needle): torn out
-// sideways. Frame T, SI. Deterministic. Thread: the tissue task's.
+// through the tissue and its own direction, together, once it is in no tissue any more; NEEDLE_LOST (m from the
+// region's centre): let go and in no tissue for so long that another takes its place; critical outside the field. A
+// critical TEAR (N across the needle): torn out sideways. Frame T, SI. Deterministic. Thread: the tissue task's.
 #pragma once
 
 #include <vector>
@@ -62,8 +62,9 @@ class NeedleTask final : public ExerciseTask {
   int pairs_, pair_ = 0, errors_ = 0;
   int grips_ = 0, point_grips_ = 0;  ///< of this pair
   bool held_ = false, drawn_ = false, in_ = false;
-  bool told_in_ = false;  ///< that it is in
-  NeedleBite bite_;       ///< the present one, as it was seen last
+  bool told_in_ = false;   ///< that it is in
+  bool threaded_ = false;  ///< drawn through the first bite of a pair, while its point has bitten once more
+  NeedleBite bite_;        ///< the present one, as it was seen last
   double in_since_s_ = 0, entry_deg_ = 0, way_deg_m_ = 0, way_m_ = 0;
   Vec3 point_T_ = Vec3::Zero(), point_along_T_ = Vec3::UnitZ(), needle_T_ = Vec3::Zero();
   std::int32_t tears_ = 0, needles_ = 0, stitches_ = 0;

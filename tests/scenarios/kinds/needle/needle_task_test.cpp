@@ -109,6 +109,11 @@ struct Bench {
     ++frame.suture.stitches;
     step();
   }
+  void draw_out_of_one() {
+    --frame.needle.bite_count;
+    ++frame.suture.stitches;
+    step();
+  }
   void withdraw() {
     frame.needle.bite_count = 0;
     step();
@@ -216,6 +221,30 @@ TEST(NeedleTask, APointThatSlidesOverTheSurfaceHasNotBitten) {
   bench.go_in(0, 0.001);
   bench.come_out(0);
   EXPECT_NEAR(bench.metric("entry_error_m"), 0.001, 1e-12) << "of the bite that held";
+}
+
+TEST(NeedleTask, ANeedleThatHasBittenTwiceIsDrawnOnceItIsOutOfBoth) {
+  Bench bench;
+  bench.grip(0.58);
+  bench.go_in(0);
+  bench.come_out(0);
+  bench.let_go();
+  NeedleSight& needle = bench.frame.needle;
+  needle.bite[1] = needle.bite[0];
+  needle.bite[1].number = bench.bites++;
+  needle.bite_count = 2;
+  bench.grip(0.1);
+  needle.bite[0] = needle.bite[1];
+  bench.draw_out_of_one();
+  EXPECT_EQ(bench.count(event_type::kNeedleDrawn, Severity::kInfo), 0) << "no other needle stands ready yet";
+  EXPECT_EQ(bench.director.status().cue, Cue::kPull);
+  bench.draw();
+  EXPECT_EQ(bench.count(event_type::kNeedleDrawn, Severity::kInfo), 1);
+  EXPECT_EQ(bench.director.status().targets_done, 1);
+  bench.another();
+  bench.let_go();
+  bench.do_pair(1);
+  EXPECT_EQ(bench.count(event_type::kNeedleDrawn, Severity::kInfo), 2);
 }
 
 TEST(NeedleTask, ADroppedNeedleIsARedoAndALostOneCritical) {
