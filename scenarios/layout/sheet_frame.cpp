@@ -7,7 +7,6 @@ namespace {
 
 constexpr double kFrameClear = 0.030;  // m over the highest place of the organ beneath (a choice)
 constexpr double kFreeShare = 0.3;     // of the edge that is cut into, in its middle, without clips (a choice)
-constexpr double kHeldMiddle = 0.005;  // m about the middle (a choice): a disc must not hang by its last threads
 constexpr int kLookedAt = 12;          // places along either side, beneath which the organ is looked for
 constexpr double kOnRim = 1e-9;        // m
 
@@ -34,7 +33,6 @@ Vec3 SheetFrame::at(const Eigen::Vector2d& place) const {
 }
 
 bool SheetFrame::clipped(const Eigen::Vector2d& place) const {
-  if ((place - Eigen::Vector2d(length_, width_) / 2).norm() < kHeldMiddle) return true;
   if (place.y() < kOnRim || place.x() < kOnRim || place.x() > length_ - kOnRim) return true;
   return place.y() > width_ - kOnRim && std::abs(place.x() - length_ / 2) > kFreeShare / 2 * length_;
 }

@@ -1,8 +1,7 @@
-// A sheet that is spread in a frame over the organ: where it lies, and where clips hold it.
+// A sheet that is spread in a frame over the organ: where it lies, and where clips hold its rim.
 //
 // A plane at one height, clear of all that is beneath. Clips hold three sides and the ends of the fourth, opposite the
-// sheet's first edge, whose middle is left free to be cut into; one on a post beneath holds the middle of the sheet.
-// Frame T, m. Thread: loading only.
+// sheet's first edge, whose middle is left free to be cut into. Frame T, m. Thread: loading only.
 #pragma once
 
 #include "scenarios/exercise.h"

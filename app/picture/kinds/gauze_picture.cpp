@@ -13,8 +13,7 @@ using GauzeStyle = SceneObject::Style;
 
 constexpr double kInkThick = 0.0004, kInkOver = 0.0005;  // m of a stroke of the line, over the gauze's middle
 constexpr double kInkApart = 0.0020, kInkShare = 1.1;    // m from stroke to stroke; of that, its length
-constexpr double kBarAcross = 0.006, kBarThick = 0.005, kBarBeside = 0.003;                         // m of the frame
-constexpr double kClipAcross = 0.009, kClipThick = 0.0024, kPostAcross = 0.004, kPostHigh = 0.030;  // m, in the middle
+constexpr double kBarAcross = 0.006, kBarThick = 0.005, kBarBeside = 0.003;  // m of the frame
 constexpr double kGapShown = 0.34;  // of the free edge, that the frame leaves open
 constexpr double kTellingCut = 0.7;
 const Vec3 kInk(0.02, 0.03, 0.08), kFrame(0.10, 0.16, 0.22);
@@ -41,16 +40,16 @@ void add_line(const SessionView& view, std::vector<SceneObject>& out) {
   }
 }
 
-/// The frame that the clips sit on, open where the gauze is cut into, and the clip on a post that holds the middle.
+/// The frame that the clips sit on, open where the gauze is cut into.
 void add_frame(const SessionView& view, std::vector<SceneObject>& out) {
   if (view.scene.sheets.empty()) return;
   Eigen::AlignedBox3d rim;
   for (const Vec3& vertex : view.scene.sheets.front().drawn_T.vertices) rim.extend(vertex);
   const Vec3 low = rim.min(), high = rim.max(), middle = rim.center(), extent = rim.sizes();
-  const auto add = [&](const Vec3& centre, double along_x, double along_y, double along_z = kBarThick) {
+  const auto add = [&](const Vec3& centre, double along_x, double along_y) {
     SceneObject bar;
     bar.shape = GauzeShape::kBox;
-    bar.size_m = {along_x, along_y, along_z};
+    bar.size_m = {along_x, along_y, kBarThick};
     bar.X_TO.p = centre;
     bar.colour = kFrame;
     out.push_back(bar);
@@ -61,8 +60,6 @@ void add_frame(const SessionView& view, std::vector<SceneObject>& out) {
   add({high.x() + kBarBeside, middle.y(), middle.z()}, kBarAcross, extent.y());
   add({low.x() + end / 2, low.y() - kBarBeside, middle.z()}, end, kBarAcross);
   add({high.x() - end / 2, low.y() - kBarBeside, middle.z()}, end, kBarAcross);
-  add(middle, kClipAcross, kClipAcross, kClipThick);
-  add(middle - Vec3(0, 0, kPostHigh / 2), kPostAcross, kPostAcross, kPostHigh);
 }
 
 /// Where the next snip is asked for.
