@@ -75,7 +75,7 @@ void NeedleTask::follow_bite(const TissueFrame& frame, EventLog& log) {
   const bool in = needle.bite_count > 0;
   const bool left = in_ && (!in || needle.bite[0].number != bite_.number);
   if (left && in && (threaded_ || frame.suture.stitches > stitches_)) {
-    threaded_ = true;
+    threaded_ = true;  // another needle comes only once this one is out of all
     bite_.number = needle.bite[0].number;
   } else if (left) {
     end_bite(frame, log);

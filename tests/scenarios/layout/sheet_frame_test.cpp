@@ -1,5 +1,4 @@
-// A frame holds the gauze by its rim, leaves the edge that is cut into free, and stands clear of the
-// organ.
+// A frame holds gauze by its rim, leaves the edge that is cut into free, and stands clear of the organ.
 #include <gtest/gtest.h>
 
 #include "scenarios/layout/sheet_frame.h"

@@ -104,13 +104,10 @@ struct Bench {
     turn(pair, way + 0.007 / shape.radius_m());
     step();
   }
+  /// Out of the bite that it is in the longest.
   void draw() {
-    frame.needle.bite_count = 0;
-    ++frame.suture.stitches;
-    step();
-  }
-  void draw_out_of_one() {
     --frame.needle.bite_count;
+    frame.needle.bite[0] = frame.needle.bite[1];
     ++frame.suture.stitches;
     step();
   }
@@ -234,8 +231,7 @@ TEST(NeedleTask, ANeedleThatHasBittenTwiceIsDrawnOnceItIsOutOfBoth) {
   needle.bite[1].number = bench.bites++;
   needle.bite_count = 2;
   bench.grip(0.1);
-  needle.bite[0] = needle.bite[1];
-  bench.draw_out_of_one();
+  bench.draw();
   EXPECT_EQ(bench.count(event_type::kNeedleDrawn, Severity::kInfo), 0) << "no other needle stands ready yet";
   EXPECT_EQ(bench.director.status().cue, Cue::kPull);
   bench.draw();
