@@ -175,9 +175,17 @@ double NeedleTask::out_m(const TaskInput& input) const {
   return own_.shape.length_m - beside_needle(own_.shape, input.tissue->needle.X_TN.inverse() * hole).arc_m;
 }
 
+/// Less of it stands before the jaws than the way from dot to dot: it can never come out there.
+bool NeedleTask::held_too_near_the_point(const TaskInput& input) const {
+  const double before_jaws = (1 - input.tissue->needle.held_share) * own_.shape.length_m;
+  const auto pair = static_cast<std::size_t>(pair_), exit = static_cast<std::size_t>(pairs_ + pair_);
+  return before_jaws < (targets_[exit].centre_T - targets_[pair].centre_T).norm();
+}
+
 NeedleTask::Step NeedleTask::step_of(const TaskInput& input) const {
   if (drawn_ || !input.tissue || !input.tissue->needle.there) return Step::kTake;
   if (threaded_) return held_ ? Step::kDraw : Step::kTakePoint;
+  if (!in_ && held_ && held_too_near_the_point(input)) return Step::kTake;
   if (!in_ || !bite_.through) return held_ ? Step::kDrive : Step::kTake;
   const double out = out_m(input);
   if (held_ && (1 - input.tissue->needle.held_share) * own_.shape.length_m < out) return Step::kDraw;
@@ -188,7 +196,8 @@ void NeedleTask::say_step(Step step, DirectorStatus& status) const {
   switch (step) {
     case Step::kTake:
       if (drawn_ && held_) return say(status, "Let go of the needle", "Another one stands ready.");
-      return say(status, "Take the needle", "Half to two thirds of its length from the point.");
+      return say(status, held_ ? "Let go of the needle" : "Take the needle",
+                 "Half to two thirds of its length from the point.");
     case Step::kDrive:
       if (!in_) return say(status, "Go in at the lit dot", "Lower the point onto it, then roll.");
       return say(status, "Roll it on to the other dot", "Follow the needle's own circle.");

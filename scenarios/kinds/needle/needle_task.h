@@ -50,6 +50,7 @@ class NeedleTask final : public ExerciseTask {
   void blame(Told told, EventLog& log);
   SurfacePlace dot(const TaskInput& input, int target) const;
   double out_m(const TaskInput& input) const;
+  bool held_too_near_the_point(const TaskInput& input) const;
   Step step_of(const TaskInput& input) const;
   void say_step(Step step, DirectorStatus& status) const;
 

@@ -257,6 +257,18 @@ TEST(NeedleTask, ADroppedNeedleIsARedoAndALostOneCritical) {
   EXPECT_EQ(bench.count(event_type::kNeedleLost, Severity::kCritical), 1);
 }
 
+TEST(NeedleTask, ANeedleHeldByItsPointIsToBeTakenAnew) {
+  Bench bench;
+  bench.grip(0.10);
+  EXPECT_EQ(bench.cue(), Cue::kTakeNeedle);
+  bench.step(4);
+  EXPECT_EQ(bench.director.status().message, "Let go of the needle");
+  bench.let_go();
+  EXPECT_EQ(bench.cue(), Cue::kTakeNeedle);
+  bench.grip(0.58);
+  EXPECT_EQ(bench.cue(), Cue::kDrive);
+}
+
 TEST(NeedleTask, ANeedleTornOutIsCritical) {
   Bench bench;
   bench.grip(0.58);
