@@ -189,6 +189,7 @@ struct Exercise {
   PenRules pens;                      ///< reach
   double hold_s = 0;                  ///< time in band, or in pose, that completes a target
   double counted_hold_s = 0;          ///< touch, grasp: of the time in one object's band so much counts
+  double rise_s = 0.5;                ///< after the first touch of an object, in which a force below the band is free
   ContactMaterial surface;            ///< touch: of the organ
   std::string tissue = kStillTissue;  ///< touch: one of kTissueWords, unless the run says otherwise
   double soft_force_n = 0, hard_force_n = 0, critical_force_n = 0;

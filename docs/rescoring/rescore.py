@@ -17,7 +17,6 @@ import pathlib
 import sys
 
 TOLERANCE = 1e-9
-RISE_GRACE_S = 0.5
 ACTING = ("completed", "timeout")
 
 
@@ -194,6 +193,7 @@ def pressing(attempt):
         weight[i - 1] += half
     context = attempt.context
     bands = context.get("object_bands") or [[context["band_low_n"], context["band_high_n"]]]
+    rise = context.get("rise_s", 0.5)
     judged, seen = [], set()
     for i, e in enumerate(attempt.events):
         if e["type"] != "TARGET_TOUCHED" or e["object"] in seen:
@@ -208,7 +208,7 @@ def pressing(attempt):
             if t[k] > to:
                 break
             force = attempt.samples[k]["force"]
-            is_open = is_open or force >= band[0] or t[k] >= e["t"] + RISE_GRACE_S
+            is_open = is_open or force >= band[0] or t[k] >= e["t"] + rise
             if is_open:
                 judged.append((e["object"], t[k], weight[k], force, band))
     return judged

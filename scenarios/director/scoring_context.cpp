@@ -50,7 +50,8 @@ AttemptStatus status_from(const std::string& name) {
 void require_finite(const ScoringContext& context) {
   bool finite = context.approach_T.allFinite();
   for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
-  finite = finite && std::isfinite(context.room_share.value_or(0)) && std::isfinite(context.counted_hold_s);
+  finite = finite && std::isfinite(context.room_share.value_or(0)) && std::isfinite(context.counted_hold_s) &&
+           std::isfinite(context.rise_s);
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
   for (const ObjectBand& band : context.object_bands)
     finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
@@ -87,6 +88,7 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.grip_low_n = exercise.grip.low_n;
   context.grip_high_n = exercise.grip.high_n;
   context.counted_hold_s = exercise.counted_hold_s;
+  context.rise_s = exercise.rise_s;
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
   kind_of(exercise).account(board, events, context);
@@ -124,6 +126,7 @@ Json json_of(const ScoringContext& context) {
   if (!context.grip_windows.empty()) json["grip_windows"] = Json::array();
   for (const auto& [low, high] : context.grip_windows) json["grip_windows"].push_back({low, high});
   json["counted_hold_s"] = context.counted_hold_s;
+  if (context.rise_s != ScoringContext{}.rise_s) json["rise_s"] = context.rise_s;
   json["objects_total"] = context.objects_total;
   json["objects_done"] = context.objects_done;
   if (context.ring_on_wire) json["ring_on_wire"] = true;
@@ -151,6 +154,7 @@ ScoringContext context_of(const Json& json) {
   for (const Json& window : json.value("grip_windows", Json::array()))
     context.grip_windows.push_back({window.at(0).get<double>(), window.at(1).get<double>()});
   context.counted_hold_s = json.value("counted_hold_s", 0.0);
+  context.rise_s = json.value("rise_s", context.rise_s);
   context.objects_total = json.at("objects_total").get<int>();
   context.objects_done = json.at("objects_done").get<int>();
   context.ring_on_wire = json.value("ring_on_wire", false);

@@ -10,7 +10,7 @@
 namespace trocar {
 namespace {
 
-constexpr double kRiseGrace = 0.5;       // s after the first touch in which a force below the band does not count
+constexpr double kGripRise = 0.5;        // s after the first touch in which a grip below the band does not count
 constexpr double kGripThreshold = 0.05;  // N: the jaws hold something
 
 using Samples = std::vector<TraceSample>;
@@ -28,10 +28,11 @@ std::vector<double> weights(const Samples& samples) {
 }
 
 /// The time in which the force is judged: it opens when the force first reaches the band's lower edge after the
-/// first touch, or kRiseGrace after that touch, whichever is sooner, and closes when the hold is complete.
+/// first touch, or rise_s after that touch, whichever is sooner, and closes when the hold is complete.
 /// @param take is given window, sample, the time that it stands for, and its reading.
 template <typename Reading, typename Take>
-void each_judged(const Samples& samples, const std::vector<BandWindow>& windows, Reading reading, Take take) {
+void each_judged(const Samples& samples, const std::vector<BandWindow>& windows, double rise_s, Reading reading,
+                 Take take) {
   const std::vector<double> weight = weights(samples);
   for (const BandWindow& window : windows) {
     bool open = false;
@@ -39,7 +40,7 @@ void each_judged(const Samples& samples, const std::vector<BandWindow>& windows,
                                [](const TraceSample& sample, double t) { return sample.t_s < t; });
     for (; it != samples.end() && it->t_s <= window.to_s; ++it) {
       const double value = reading(*it);
-      open = open || value >= window.band.low_n || it->t_s >= window.from_s + kRiseGrace;
+      open = open || value >= window.band.low_n || it->t_s >= window.from_s + rise_s;
       if (open) take(window, *it, weight[static_cast<std::size_t>(it - samples.begin())], value);
     }
   }
@@ -47,12 +48,13 @@ void each_judged(const Samples& samples, const std::vector<BandWindow>& windows,
 
 /// All windows together.
 template <typename Reading>
-Value in_band_share(const Samples& samples, const std::vector<BandWindow>& windows, Reading reading) {
+Value in_band_share(const Samples& samples, const std::vector<BandWindow>& windows, double rise_s, Reading reading) {
   double inside = 0, total = 0;
-  each_judged(samples, windows, reading, [&](const BandWindow& window, const TraceSample&, double w, double value) {
-    total += w;
-    if (value >= window.band.low_n && value <= window.band.high_n) inside += w;
-  });
+  each_judged(samples, windows, rise_s, reading,
+              [&](const BandWindow& window, const TraceSample&, double w, double value) {
+                total += w;
+                if (value >= window.band.low_n && value <= window.band.high_n) inside += w;
+              });
   return total > 0 ? Value(inside / total) : std::nullopt;
 }
 
@@ -166,7 +168,8 @@ void add_grip_metrics(const Samples& samples, const std::vector<Event>& events, 
   sink.push_back({"grip_max_n", time > 0 ? Value(largest) : std::nullopt, "N"});
   sink.push_back({"grip_mean_n", time > 0 ? Value(sum / time) : std::nullopt, "N"});
   sink.push_back({"grip_in_band_share",
-                  in_band_share(samples, windows, [](const TraceSample& sample) { return sample.grip_n; }), "1"});
+                  in_band_share(samples, windows, kGripRise, [](const TraceSample& sample) { return sample.grip_n; }),
+                  "1"});
   sink.push_back({"regrasps", grasps > 0 ? Value(grasps - 1) : std::nullopt, "1"});
 }
 
@@ -214,13 +217,13 @@ void add_force_metrics(const Trace& trace, const std::vector<Event>& events, con
   const auto windows = windows_between(events, event_type::kTargetTouched, event_type::kTargetHeld, end, bands);
   BandTimes of_objects{FrozenTimes(events, end)};
   double judged_s = 0, hard_s = 0;
-  each_judged(trace.samples, windows, force_of,
+  each_judged(trace.samples, windows, context.rise_s, force_of,
               [&](const BandWindow& window, const TraceSample& sample, double w, double value) {
                 of_objects.add(window, sample.t_s, w, value);
                 judged_s += w;
                 if (value > context.hard_force_n) hard_s += w;
               });
-  sink.push_back({"in_band_share", in_band_share(trace.samples, windows, force_of), "1"});
+  sink.push_back({"in_band_share", in_band_share(trace.samples, windows, context.rise_s, force_of), "1"});
   sink.push_back({"object_in_band_share", of_objects.mean_share(context.counted_hold_s), "1"});
   sink.push_back({"hard_force_share", judged_s > 0 ? Value(hard_s / judged_s) : std::nullopt, "1"});
   add_grip_metrics(trace.samples, events, context, sink);

@@ -29,6 +29,7 @@ struct ScoringContext {
   double grip_low_n = 0, grip_high_n = 0;           ///< wanted grip force
   std::vector<std::array<double, 2>> grip_windows;  ///< wanted grip while carrying each block; empty: no blocks
   double counted_hold_s = 0;    ///< of the time in an object's band, as much counts; 0: recorded before it was known
+  double rise_s = 0.5;          ///< after the first touch of an object, in which a force below the band is free
   double retract_height_m = 0;  ///< of the ideal path between targets, along approach_T
   Vec3 approach_T = Vec3::UnitZ();   ///< direction in which the instrument withdraws
   std::vector<Vec3> waypoints;       ///< start, then the targets that were held, in lit order

@@ -31,6 +31,7 @@ void read_grip(StrictTable table, GripTask& grip) {
 
 void read_touch(StrictTable& document, Exercise& exercise) {
   exercise.counted_hold_s = exercise.hold_s = document.number("hold_s", 0.05, 60);
+  exercise.rise_s = document.number_or("rise_s", 0, 10, exercise.rise_s);
   exercise.tissue = document.choice_or("tissue", {kTissueWords.begin(), kTissueWords.end()}, kStillTissue);
   read_surface(document, exercise);
   read_grip(document.table("grip"), exercise.grip);

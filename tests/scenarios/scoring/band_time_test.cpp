@@ -48,6 +48,17 @@ TEST(BandTime, IsTheHoldOverTheHoldAndTheTimeOutOfTheBand) {
       << "1.75 s in the band count as the one that is asked for";
 }
 
+TEST(BandTime, TheRiseIsFreeForAsLongAsTheExerciseSays) {
+  const auto events = whole_run(6, {made_event(1, "TARGET_TOUCHED", 0), made_event(3.2, "TARGET_HELD", 0)});
+  const Trace slow = pressed(6, {{1, 2.2, 0.2}, {2.2, 3.2, 0.6}});
+  EXPECT_NEAR(share(slow, events, of_discs()), 1 / 1.7, 0.002) << "0.5 s unless the exercise says otherwise";
+  ScoringContext context = of_discs();
+  context.rise_s = 1.5;
+  EXPECT_NEAR(share(slow, events, context), 1, 0.002);
+  const Trace lost = pressed(6, {{1, 1.2, 0.6}, {1.2, 2.2, 0.2}, {2.2, 3.2, 0.6}});
+  EXPECT_NEAR(share(lost, events, context), 1 / 2.0, 0.002) << "a rise is over once the band is reached";
+}
+
 TEST(BandTime, DwellingInTheBandBesideADiscBuysNothingBack) {
   const std::vector<Event> quick = whole_run(9, {made_event(1, "TARGET_TOUCHED", 0), made_event(3, "TARGET_HELD", 0)});
   const std::vector<Event> slow = whole_run(9, {made_event(1, "TARGET_TOUCHED", 0), made_event(8, "TARGET_HELD", 0)});

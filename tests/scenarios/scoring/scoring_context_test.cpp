@@ -23,6 +23,7 @@ ScoringContext awkward_context() {
   context.critical_force_n = 4.7;
   context.grip_low_n = 0.73;
   context.grip_high_n = 5e-324;  // the smallest number there is
+  context.rise_s = 1.5;
   context.retract_height_m = 0.012;
   context.approach_T = Vec3(0.1, -0.2, M_PI).normalized();
   context.waypoints = {Vec3(0.1, 1.0 / 7, -0.0), Vec3(1e17, -2.5e-9, 3)};
