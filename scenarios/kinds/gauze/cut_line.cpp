@@ -90,11 +90,14 @@ CutLine::Added CutLine::add(const Eigen::Vector2d& from, const Eigen::Vector2d& 
   if (!(length > 0)) return added;
   const Eigen::Vector2d way = (to - from) / length, a = from - kFrays * way, b = to + kFrays * way;
   const Eigen::Vector2d out = direction(line_.from_rad);
+  // Where gauze ends at an end of the cut, the mesh has parted along the way in up to older cuts.
+  const Eigen::Vector2d first = from_rim ? Eigen::Vector2d(from - kMet * way) : a,
+                        last = to_rim ? Eigen::Vector2d(to + kMet * way) : b;
   for (int bar = 0; bar < bars_; ++bar) {  // from the edge on
     const double depth = radius(0) + line_.way_in_m * (1 - (bar + 0.5) / bars_);
-    const double before = a.dot(out) - depth, behind = b.dot(out) - depth;
+    const double before = first.dot(out) - depth, behind = last.dot(out) - depth;
     if ((before < 0) == (behind < 0)) continue;
-    const Eigen::Vector2d there = a + before / (before - behind) * (b - a);
+    const Eigen::Vector2d there = first + before / (before - behind) * (last - first);
     if (std::abs(cross(out, there)) < kBarHalf) passed_[static_cast<std::size_t>(bar)] = true;
   }
   if (on_way_in(from, to)) return added;

@@ -56,6 +56,16 @@ TEST(CutLine, AWholeCutClosesItAndOnlyAWholeOne) {
   EXPECT_TRUE(line.closed());
 }
 
+TEST(CutLine, TheWayInIsCutWhereTheGauzeHasPartedAheadOfTheBlades) {
+  for (const bool rim : {false, true}) {
+    CutLine line(kCircle, kBand);
+    line.add({0, -0.047}, {0, -0.026});
+    EXPECT_LT(line.uncut_from_m(), line.way_in_m()) << "3 mm before the circle";
+    line.add({0, -0.0235}, {0, -0.0195}, rim);
+    EXPECT_EQ(line.uncut_from_m() >= line.way_in_m(), rim) << "2.5 mm between the cuts: gauze that holds, or none";
+  }
+}
+
 TEST(CutLine, CutsMeetWhereTheGauzeBetweenThemHasParted) {
   const auto at = [](double arc_m) -> Eigen::Vector2d {
     return 0.020 * Eigen::Vector2d(std::cos(arc_m / 0.020 - kPi / 2), std::sin(arc_m / 0.020 - kPi / 2));
