@@ -28,6 +28,7 @@ constexpr double kMostHeldBack = 0.4;     // rad by which friction keeps the nee
 constexpr double kQuickestRoll = 4;       // rad/s of a turn in the air
 constexpr double kBeyond = 48 * kDegree;  // of the needle that shall stand out at the end
 constexpr double kRollMore = 12 * kDegree, kMostMore = 30 * kDegree;  // while it does not; before it is given up
+constexpr int kMostInVain = 2;                                        // drives with one grip
 constexpr double kMostAsked = 100 * kDegree;                          // of a roll that brings the point over the dot
 constexpr double kMostAhead = 45 * kDegree;                           // of what is seen to have been rolled
 constexpr double kDrawRoll = 145 * kDegree;
@@ -66,7 +67,7 @@ void NeedleJob::begin(const Percept& percept, const HandIntent& intent, HandRand
 }
 
 void NeedleJob::start(const Percept& percept, const HandIntent& intent, HandRandom& random) {
-  corrections_ = 0;
+  corrections_ = in_vain_ = 0;
   if (cue_ == Cue::kTakeNeedle) return enter(Step::kOpen);
   if (cue_ == Cue::kPull) return begin_roll(Step::kDraw, percept, kDrawRoll, intent, random);
   straight(Step::kLift, intent, kNeedleClear * Vec3::UnitZ());
@@ -274,8 +275,9 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
       return rolled(percept, intent, random);
     case Step::kUnroll:
       roll(percept, intent);
-      if (in_step_s_ > roll_s_) straight(Step::kLift, intent, kNeedleClear * percept.target_normal_T);
-      return;
+      if (in_step_s_ < roll_s_) return;
+      if (++in_vain_ >= kMostInVain) return enter(Step::kOpen);  // it has turned in the jaws: taken anew
+      return straight(Step::kLift, intent, kNeedleClear * percept.target_normal_T);
     case Step::kDraw:
       roll(percept, intent);
       if (in_step_s_ > roll_s_)

@@ -74,7 +74,7 @@ class NeedleJob : public HandWork {
   Vec3 hinge_T_ = Vec3::UnitX();    ///< as it was seen then,
   double by_rad_ = 0, roll_s_ = 1;  ///< by how much, in how long
   double rolled_rad_ = 0;           ///< since the point was pressed on
-  int corrections_ = 0;
+  int corrections_ = 0, in_vain_ = 0;
 };
 
 }  // namespace trocar
