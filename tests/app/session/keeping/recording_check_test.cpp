@@ -72,7 +72,7 @@ TEST_F(RecordingsChecked, AnotherBoardLevelOrHandThanTheRecordedShows) {
 }
 
 TEST_F(RecordingsChecked, AScoreThatTheRecordingDoesNotGiveShows) {
-  const AttemptResult kept = attempted("T-novice", "novice");
+  const AttemptResult kept = attempted("T-heavy", "heavy-handed");
   ASSERT_FALSE(kept.grade.passed);
   rewrite("UPDATE score SET value = 95, passed = 1");
   EXPECT_NE(said().find("the record says completed, score 95.000000, passed"), std::string::npos) << said();
