@@ -376,6 +376,7 @@ GradedRecording grade_recording(const Recording& recording, const std::string& n
   if (recording.end && !recording.end->summary_json.empty()) {
     context = parse_scoring_context(recording.end->summary_json, name);
     if (context.counted_hold_s == 0) context.counted_hold_s = (rubric_of ? *rubric_of : own).counted_hold_s;
+    if (rubric_of) context.rise_s = rubric_of->rise_s;  // its anchors were set with it
   } else {
     context.outcome = AttemptStatus::kAborted;  // cut off: no number, but the metrics of what is there
     const ExerciseLevel& level = find_level(own, recorded.setup.level);

@@ -76,6 +76,22 @@ TEST(Session, ARunGradesAndReplaysToTheSameHash) {
   EXPECT_EQ(grade.status, AttemptStatus::kCompleted);
 }
 
+TEST(Session, AnotherRubricIsReadWithTheRiseThatItsAnchorsWereSetWith) {
+  Scene scene = short_scene("heavy-handed");
+  scene.setup.exercise.rise_s = 0;
+  const Attempt attempt = run(scene);
+  Exercise slow = scene.setup.exercise;
+  slow.rise_s = 10;
+  const auto in_band = [&](const Exercise* rubric_of) {
+    const Grade grade = grade_recording(attempt.recording, "memory", rubric_of).grade;
+    for (const Metric& metric : grade.metrics)
+      if (metric.name == "in_band_share") return metric.value.value_or(-1);
+    return -1.0;
+  };
+  EXPECT_EQ(in_band(nullptr), in_band(&scene.setup.exercise)) << "as recorded";
+  EXPECT_GT(in_band(&slow), in_band(nullptr));
+}
+
 TEST(Session, AMissedPeriodShiftsTraceAndEventsTogether) {
   Scene scene = short_scene("expert");
   scene.setup.faults = {{InjectedFaultKind::kMissedSync, 2.5, 0, 0, 6}};
