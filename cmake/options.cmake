@@ -3,6 +3,7 @@ add_library(trocar_options INTERFACE)
 target_include_directories(trocar_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Same input, same bytes: no fused multiply-add behind our back.
 target_compile_options(trocar_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       -pthread                 # everywhere, as some libraries ask for: headers read once fit sources with the same macros alone
                        -Wno-subobject-linkage)  # joined translation units: a type of one .cpp looks as if it came from a header
 if(TROCAR_WERROR)
   target_compile_options(trocar_options INTERFACE -Werror)
@@ -36,6 +37,22 @@ function(trocar_sources result)
   set(${result} ${_found} PARENT_SCOPE)
 endfunction()
 
+# trocar_headers(NAME headers...): what nearly every source includes is parsed once; trocar_read_once(TARGET NAME) then takes it from there. Joined builds
+# alone: cmake/alone compiles each source as it stands.
+function(trocar_headers name)
+  if(CMAKE_UNITY_BUILD)
+    file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
+    add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+    target_link_libraries(${name} PRIVATE trocar_options Eigen3::Eigen)
+    target_precompile_headers(${name} PRIVATE ${ARGN})
+  endif()
+endfunction()
+function(trocar_read_once target name)
+  if(CMAKE_UNITY_BUILD)
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endif()
+endfunction()
+
 # trocar_library(NAME ROOMS folders... [EXCEPT files...] [PUBLIC libs...] [PRIVATE libs...])
 # A static library of all sources of its rooms. What it is compiled with besides: trocar_options.
 function(trocar_library name)
@@ -46,4 +63,5 @@ function(trocar_library name)
   endforeach()
   add_library(${name} STATIC ${_sources})
   target_link_libraries(${name} PUBLIC trocar_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  trocar_read_once(${name} trocar_program_headers)
 endfunction()
