@@ -1,14 +1,19 @@
 #include "app/desk/demo_cohort.h"
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <fstream>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -219,14 +224,40 @@ fs::path demo_database_beside(const fs::path& database) {
   return (database.empty() ? default_database_path() : database).parent_path() / "demo.db";
 }
 
+namespace {
+
+/// For what is not whole yet; nothing that is there is touched.
+fs::path empty_folder_beside(const fs::path& database) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(database);
+  fs::create_directories(whole.parent_path(), error);
+  std::string name = whole.string() + ".part-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr)
+    throw EnvironmentError(name + ": cannot be made: " + std::generic_category().message(errno));
+  return name;
+}
+
+/// Another database whose name differs by its ending alone keeps its recordings in the same folder.
+void require_own_folders(const fs::path& database) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(database).parent_path(), error)) {
+    const fs::path& other = entry.path();
+    if (other.stem() != database.stem() || other.filename() == database.filename() || !entry.is_regular_file(error))
+      continue;
+    std::string title(15, '\0');
+    std::ifstream(other, std::ios::binary).read(title.data(), static_cast<std::streamsize>(title.size()));
+    if (title == "SQLite format 3")
+      throw InputError(database.string() + ": shares its folder of recordings with " + other.string() +
+                       "; it was left as it is. Rename one of them first, with its recordings");
+  }
+}
+
+}  // namespace
+
 int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets) {
   if (const auto there = parts_of(options.database); !there.empty())
     throw InputError(there.front().string() + ": exists already");
-  const fs::path folder = fs::path(options.database.string() + ".part");
-  std::error_code error;
-  fs::remove_all(folder, error);
-  fs::create_directories(folder, error);
-  if (error) throw EnvironmentError(folder.string() + ": cannot be made: " + error.message());
+  const fs::path folder = empty_folder_beside(options.database);
   struct Cleared {
     const fs::path& folder;
     ~Cleared() {
@@ -244,6 +275,8 @@ int make_demo_cohort(const DemoCohortOptions& options, const AssetRoots& assets)
     tell_demo(database, planned);
     mark_demo_whole(database);
   }
+  if (const auto there = parts_of(options.database); !there.empty())
+    throw InputError(there.front().string() + ": was made in the meantime");
   move_parts(made, fs::absolute(options.database).parent_path());
   return static_cast<int>(planned.size());
 }
@@ -255,6 +288,7 @@ fs::path remove_demo_cohort(const fs::path& database) {
     if (const std::string kept = attempt_not_invented(opened); !kept.empty())
       throw InputError(database.string() + ": holds attempts that are not invented (" + kept +
                        "); it was left as it is");
+    require_own_folders(database);
   }
   const std::string stem = (database.parent_path() / ("removed-" + database.stem().string())).string();
   fs::path folder = stem;

@@ -102,6 +102,10 @@ TEST(DemoCohort, StoppedItLeavesNothingAndRemovedItLiesInAFolderOfItsOwn) {
   options.going = {};
   options.least_attempts = 1;
   ASSERT_EQ(make_demo_cohort(options, find_assets()), 8);
+  { const Database real(folder.path() / "demo"); }
+  EXPECT_NE(message_of<InputError>([&] { remove_demo_cohort(options.database); }).find("shares its folder"),
+            std::string::npos);
+  for (const char* part : {"demo", "demo.anchor", "demo.key"}) fs::remove(folder.path() / part);
   EXPECT_EQ(remove_demo_cohort(options.database), folder.path() / "removed-demo");
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"removed-demo"});
   const fs::path moved = folder.path() / "removed-demo" / "demo.db";
