@@ -47,8 +47,8 @@ bool leaves_this_machine(const std::map<std::string, std::string>& given) {
     const auto found = given.find(key);
     return found == given.end() ? of_environment(environment) : found->second;
   };
-  const std::string name = value("host", "PGHOST");
-  std::istringstream hosts(name.empty() ? value("hostaddr", "PGHOSTADDR") : name);
+  // hostaddr says where to go, and host then only whom to expect there.
+  std::istringstream hosts(value("host", "PGHOST") + "," + value("hostaddr", "PGHOSTADDR"));
   for (std::string host; std::getline(hosts, host, ',');) {
     if (!on_this_machine(host)) return true;
   }

@@ -56,7 +56,8 @@ TEST_F(Address, BeyondThisMachineProvesWhoAnswers) {
   for (const char* url :
        {"postgresql://central/t", "postgresql://10.0.0.7/t", "postgresql:///t?host=central",
         "postgresql://localhost,central/t", "postgresql://127.0.0.1.central.example/t", "postgresql:///t?service=x",
-        "postgresql://central/t?hostaddr=127.0.0.1", "postgresql://[2001:db8::1]/t", "postgresql://%63entral/t"}) {
+        "postgresql://central/t?hostaddr=127.0.0.1", "postgresql://localhost/t?hostaddr=10.0.0.7",
+        "postgresql://[2001:db8::1]/t", "postgresql://%63entral/t"}) {
     EXPECT_NE(connection_text({url}).find("&sslmode=verify-full&gssencmode=disable"),
               connection_text({url}).find("?sslmode=verify-full&gssencmode=disable"))
         << url;
