@@ -37,6 +37,9 @@ std::filesystem::path hand_file(const std::string& name_or_script, const std::fi
     throw InputError("unknown hand '" + name_or_script + "': known are " + joined(known) +
                      (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
+  // "Mouse" or "mouse " would pass for a person on a page.
+  if (name_or_script.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
+    throw InputError("hand '" + name_or_script + "': names are small letters, digits, '-' and '_'");
   return hands_dir / (name_or_script + ".toml");
 }
 

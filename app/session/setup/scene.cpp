@@ -95,6 +95,7 @@ AssetRoots find_assets() {
   namespace fs = std::filesystem;
   std::vector<fs::path> roots;
   const char* named = std::getenv("TROCAR_ASSETS");
+  if (named && !*named) named = nullptr;  // as program_of_record() has it
   if (named) roots.emplace_back(named);
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);

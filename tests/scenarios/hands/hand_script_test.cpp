@@ -8,6 +8,7 @@
 #include "haptics/input_error.h"
 #include "scenarios/files/strict_toml.h"
 #include "scenarios/hands/make_hand.h"
+#include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::hand_script_test {
 namespace {
@@ -118,6 +119,11 @@ TEST(MakeHand, FindsShippedHandsAndFiles) {
   }
   EXPECT_THROW(make_hand("expert", 1, kHands / "missing"), InputError);
   EXPECT_THROW(make_hand("missing.toml", 1, kHands), InputError);
+  const test::TemporaryFolder own;
+  for (const char* name : {"mouse", "Mouse", "mouse ", "m\xd0\xbeuse"}) {
+    std::filesystem::copy_file(kHands / "expert.toml", own / (std::string(name) + ".toml"));
+    EXPECT_THROW(make_hand(name, 1, own.path()), InputError) << name << " would pass for a person's input";
+  }
 }
 
 }  // namespace
