@@ -54,10 +54,13 @@ Subject subject_of(Database& database, const std::string& uuid) {
   const AttemptStore store(database);
   const AttemptSummary found = store.find(uuid);
   if (found.uuid != uuid) throw InputError("attempt " + uuid + ": there is none");
-  const std::string file = store.load(found.row).recording_path;
+  const AttemptResult stored = store.load(found.row);
+  const std::string& file = stored.recording_path;
   std::error_code ignored;
   if (file.empty() || !fs::is_regular_file(file, ignored))
     throw InputError("attempt " + uuid + ": there is no recording of it, so there can be no film");
+  if (recording_exchanged(stored))
+    throw InputError("attempt " + uuid + ": another file lies in the place of its recording");
   return {found.trainee, file};
 }
 

@@ -109,8 +109,11 @@ Loaded& DeskPictures::State::load(const std::string& wanted_uuid) {
   const AttemptStore store(database);
   const AttemptSummary found = store.find(wanted_uuid);
   if (found.uuid != wanted_uuid) throw InputError("attempt " + wanted_uuid + ": there is none");
-  const std::string file = store.load(found.row).recording_path;
+  const AttemptResult stored = store.load(found.row);
+  const std::string& file = stored.recording_path;
   if (file.empty()) throw InputError("attempt " + wanted_uuid + ": was not recorded, so there are no pictures of it");
+  if (recording_exchanged(stored))
+    throw InputError("attempt " + wanted_uuid + ": another file lies in the place of its recording");
   if (loaded.size() >= kRuns) loaded.pop_back();
   loaded.push_front({wanted_uuid, found.trainee, file, RecordedRun::in_background(file, assets)});
   return loaded.front();

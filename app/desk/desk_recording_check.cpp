@@ -14,12 +14,14 @@ struct DeskRecordingCheck::State {
     std::vector<std::string> found;
     try {
       Database database = open();
-      found = check_by_recordings(database, {1, [&](std::size_t done, std::size_t all) {
-                                               const std::scoped_lock lock(mutex);
-                                               known.done = done;
-                                               known.all = all;
-                                               return !stop.stop_requested();
-                                             }});
+      const auto going = [&](std::size_t done, std::size_t all) {
+        const std::scoped_lock lock(mutex);
+        known.done = done;
+        known.all = all;
+        return !stop.stop_requested();
+      };
+      found = AttemptStore(database).check_recordings();  // missing and exchanged ones
+      for (std::string& problem : check_by_recordings(database, {1, going})) found.push_back(std::move(problem));
     } catch (const std::exception& error) {
       found = {std::string("the recordings could not be checked: ") + error.what()};
     }

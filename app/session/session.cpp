@@ -346,7 +346,10 @@ std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const As
   }
   RecordingWriter writer(file, header, scene.loop.daq.rate_hz, hooks.seal);
   SessionOutcome outcome = run_session(scene, assets, hooks, writer);
-  return {std::move(outcome), read_recording(file)};
+  Recording kept = read_recording(file);
+  if (kept.attempt != hooks.seal.attempt || (hooks.seal.key && kept.signed_by != hooks.seal.key->public_key()))
+    throw EnvironmentError(file.string() + ": another recording was put in its place while the attempt ran");
+  return {std::move(outcome), std::move(kept)};
 }
 
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe) {

@@ -1,5 +1,7 @@
 #include "trainees/integrity/audit.h"
 
+#include <sqlite3.h>
+
 #include "haptics/digest/digest.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
@@ -41,6 +43,9 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems) {
 void check_signatures(sqlite3* connection, std::vector<std::string>& problems) {
   const std::vector<AnnouncedKey> keys = announced_keys(connection);
   const std::int64_t head = audit_head(connection).position;
+  if (keys.empty() && *sqlite3_db_filename(connection, "main") != '\0')
+    problems.push_back(
+        "no entry names the station's key, as the first of every record on disk does: it was taken away");
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const std::int64_t last = i + 1 < keys.size() ? keys[i + 1].position - 1 : head;
     sql::Statement bare(connection,

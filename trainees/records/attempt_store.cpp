@@ -270,6 +270,9 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
       throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
     }
   }
+  if (!id.identity.empty() &&
+      identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump() != id.identity)
+    throw InputError("attempt " + id.uuid + ": its row was changed while it ran; it is not graded");
   write_result(connection, id.row, result, stored_recording_path(database_->file(), recording), finished_utc);
   transaction.commit();
 }
@@ -359,7 +362,8 @@ std::string AttemptStore::recording_problem(const std::string& attempt_uuid, con
   const auto keys = announced_keys(connection);
   const bool known =
       std::any_of(keys.begin(), keys.end(), [&](const AnnouncedKey& key) { return key.public_key == signed_by; });
-  if (keys.empty() || known || (of_another_station && !signed_by.empty())) return "";
+  if (known || (keys.empty() && signed_by.empty()) || (of_another_station && !signed_by.empty())) return "";
+  if (keys.empty()) return "is signed with a key that the record no longer names";
   return signed_by.empty() ? "is not signed with the station's key" : "is signed with another station's key";
 }
 
@@ -391,6 +395,12 @@ std::vector<std::string> AttemptStore::check_recordings() const {
   }
   for (const std::string& stray : stray_recordings(*database_)) problems.push_back(stray);
   return problems;
+}
+
+bool recording_exchanged(const AttemptResult& stored) {
+  std::error_code none;
+  return !stored.recording_sha256.empty() && fs::is_regular_file(stored.recording_path, none) &&
+         digest::of_readable_file(stored.recording_path) != stored.recording_sha256;
 }
 
 }  // namespace trocar

@@ -133,4 +133,8 @@ class AttemptStore {
   Database* database_;
 };
 
+/// Whether what lies in the place of its recording is another file than the attempt was kept with. @throws
+/// EnvironmentError: it cannot be read.
+bool recording_exchanged(const AttemptResult& stored);
+
 }  // namespace trocar

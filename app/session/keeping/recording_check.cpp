@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "app/session/grading/recorded_result.h"
-#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 
 namespace trocar {
@@ -39,7 +38,7 @@ std::string graded_problem(const AttemptResult& stored, const Recording& recordi
 /// The recording that the attempt was kept with; nothing where another, or none, lies in its place.
 std::optional<Recording> kept_recording(const AttemptResult& stored) {
   if (stored.recording_sha256.empty() || !std::filesystem::is_regular_file(stored.recording_path) ||
-      digest::of_readable_file(stored.recording_path) != stored.recording_sha256)
+      recording_exchanged(stored))
     return std::nullopt;
   return read_recording(stored.recording_path);
 }

@@ -11,6 +11,7 @@
 
 #include "app/picture/films/video_writer.h"
 #include "app/session/grading/recorded_result.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tests/app/session/playback/playback_samples.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -33,7 +34,7 @@ class DeskFilmsTest : public testing::Test {
     other_ = store(database, folder_ / "two.trec");
     bare_ = store(database, {});
   }
-  static std::string store(Database& database, const fs::path& recording) {
+  static std::string store(Database& database, const fs::path& recording, bool torn = false) {
     AttemptStart start;
     start.trainee = "T01";
     start.exercise_id = "surface-touch";
@@ -46,7 +47,12 @@ class DeskFilmsTest : public testing::Test {
     const AttemptId id = attempts.begin_attempt(start);
     AttemptResult result;
     result.grade.status = AttemptStatus::kAborted;
-    if (!recording.empty()) result = *regrade_file(fs::exists(recording) ? recording : record_short(recording));
+    if (torn) {
+      std::ofstream(recording) << "torn";
+      result.recording_sha256 = digest::of_bytes("torn");
+    }
+    if (!torn && !recording.empty())
+      result = *regrade_file(fs::exists(recording) ? recording : record_short(recording));
     attempts.finish_attempt(id, result);
     return id.uuid;
   }
@@ -103,11 +109,17 @@ TEST_F(DeskFilmsTest, WhatCannotBeFilmedIsNamed) {
   EXPECT_NE(message_of<InputError>([&] { desk->make("latest"); }).find("there is none"), std::string::npos)
       << "whole UUIDs only";
   EXPECT_NE(message_of<InputError>([&] { desk->part(uuid_, 0, 1); }), "");
-  std::ofstream(folder_ / "two.trec", std::ios::trunc) << "torn";
-  desk->make(other_);
-  const FilmState failed = ended(*desk, other_);
+  std::string torn;
+  {
+    Database database(file_);
+    torn = store(database, folder_ / "three.trec", true);
+  }
+  desk->make(torn);
+  const FilmState failed = ended(*desk, torn);
   EXPECT_EQ(failed.stage, Stage::kFailed);
-  EXPECT_NE(failed.words.find("two.trec"), std::string::npos) << failed.words;
+  EXPECT_NE(failed.words.find("three.trec"), std::string::npos) << failed.words;
+  std::ofstream(folder_ / "two.trec", std::ios::trunc) << "another's";
+  EXPECT_NE(message_of<InputError>([&] { desk->make(other_); }).find("another file lies"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(kept()));
 }
 

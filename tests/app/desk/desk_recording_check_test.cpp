@@ -70,6 +70,23 @@ TEST_F(DeskRecordings, AreFoundSoundOrNot) {
   EXPECT_NE(found.problems.front().find("the record says"), std::string::npos) << found.problems.front();
 }
 
+TEST_F(DeskRecordings, ThatWereExchangedAreFound) {
+  std::vector<AttemptResult> kept;
+  for (int n = 0; n < 2; ++n) {
+    const AttemptId id = begun();
+    Recording recording;
+    const SessionOutcome outcome = recorded(id, recording);
+    AttemptStore(database_).finish_attempt(id, kept_result(attempt_start(scene_, "T-1"), id, outcome, recording));
+    kept.push_back(AttemptStore(database_).load(id.uuid));
+    EXPECT_FALSE(recording_exchanged(kept.back()));
+  }
+  EXPECT_EQ(checked().problems, std::vector<std::string>{});
+  fs::copy_file(kept[0].recording_path, kept[1].recording_path, fs::copy_options::overwrite_existing);
+  EXPECT_TRUE(recording_exchanged(kept[1]));
+  ASSERT_EQ(checked().problems.size(), 1u);
+  EXPECT_NE(checked().problems.front().find(kept[1].uuid), std::string::npos) << checked().problems.front();
+}
+
 TEST_F(DeskRecordings, OfACutOffAttemptSayWhatTheyGiveAndWhoseTheyAre) {
   const AttemptResult died = cut_off();
   const std::string said = recorded_outcome(database_, died);
@@ -79,9 +96,10 @@ TEST_F(DeskRecordings, OfACutOffAttemptSayWhatTheyGiveAndWhoseTheyAre) {
   swapped.recording_path = other.recording_path;
   swapped.recording_sha256 = other.recording_sha256;
   EXPECT_NE(recorded_outcome(database_, swapped).find("is of another attempt"), std::string::npos);
+  EXPECT_TRUE(checked().problems.empty()) << "what cut it off is no problem of the record";
   std::ofstream(died.recording_path, std::ios::app) << "x";
   EXPECT_NE(recorded_outcome(database_, died).find("is not in its place"), std::string::npos);
-  EXPECT_TRUE(checked().problems.empty()) << "what cut it off is no problem of the record";
+  EXPECT_EQ(checked().problems.size(), 1u) << "a file that was changed is one";
 }
 
 }  // namespace

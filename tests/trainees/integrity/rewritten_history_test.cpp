@@ -35,7 +35,7 @@ class RewrittenHistory : public TemporaryFolder {
   }
 
   /// Failures become passes; both chains are made again from their beginning, the anchor too.
-  /// @param first detail of the first entry, which names the key; "" as it was.
+  /// @param first detail of the first entry, which names the key; "" as it was, kNoKey none.
   void rewrite(const std::string& first = "") {
     sqlite3* raw = nullptr;
     sqlite3_open(file_.c_str(), &raw);
@@ -46,7 +46,7 @@ class RewrittenHistory : public TemporaryFolder {
       sql::Statement rows(raw, "SELECT actor, action, subject, detail FROM audit ORDER BY position");
       while (rows.step()) entries.push_back({rows.text(0), rows.text(1), rows.text(2), rows.text(3)});
     }
-    if (!first.empty()) entries.front().detail = first;
+    if (!first.empty()) entries.front().detail = first == kNoKey ? "" : first;
     sql::execute(raw,
                  "DELETE FROM audit; UPDATE attempt SET status = 'running', chain_position = NULL, prev_hash = NULL, "
                  "row_hash = NULL");
@@ -67,6 +67,7 @@ class RewrittenHistory : public TemporaryFolder {
     put_triggers_back();
   }
 
+  static constexpr const char* kNoKey = "no key";
   std::string said() {
     const Database database(file_, OpenMode::kExisting);
     return problems_of(database);
@@ -105,6 +106,12 @@ TEST_F(RewrittenHistory, WithoutTheKeyItShows) {
   EXPECT_NE(said().find("is not signed with the station's key"), std::string::npos) << said();
   fs::rename(folder_ / "taken", key_path(file_));
   EXPECT_NE(said().find("is not signed with the station's key"), std::string::npos) << said();
+}
+
+TEST_F(RewrittenHistory, AsOneThatNeverHadAKeyItShows) {
+  fs::remove(key_path(file_));
+  rewrite(kNoKey);
+  EXPECT_NE(said().find("no entry names the station's key"), std::string::npos) << said();
 }
 
 TEST_F(RewrittenHistory, WithAnotherKeyInItsPlaceItShows) {

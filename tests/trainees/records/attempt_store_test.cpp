@@ -8,6 +8,7 @@
 
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::attempt_store_test {
@@ -300,6 +301,20 @@ TEST_F(AttemptFile, ARunningAttemptKeepsWhatItBeganWith) {
   AttemptStore(database).begin_attempt(sample_start());
   EXPECT_NE(run_outside(folder_ / "t.db", "UPDATE attempt SET seed = 1"), "");
   EXPECT_NE(run_outside(folder_ / "t.db", "DELETE FROM attempt"), "");
+}
+
+TEST_F(AttemptFile, MadeAnothersWhileItRunsItIsNotGraded) {
+  Database database(folder_ / "t.db");
+  AttemptStore store(database);
+  const AttemptId id = store.begin_attempt(sample_start("T-a"));
+  TraineeStore(database).ensure_id("T-b");
+  ASSERT_EQ(run_outside(folder_ / "t.db", "DROP TRIGGER attempt_keeps_identity"), "");
+  ASSERT_EQ(run_outside(folder_ / "t.db",
+                        "UPDATE attempt SET trainee_id = (SELECT id FROM known_trainee WHERE code = 'T-b')"),
+            "");
+  EXPECT_NE(message_of<InputError>([&] { store.finish_attempt(id, sample_result()); }).find("was changed while it ran"),
+            std::string::npos);
+  EXPECT_EQ(store.find(id.uuid).status, "running");
 }
 
 TEST_F(AttemptFile, RecordingsLieBesideTheDatabaseAndMoveWithIt) {

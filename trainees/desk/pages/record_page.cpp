@@ -29,15 +29,18 @@ std::string problem_list(const std::vector<std::string>& problems) {
 }
 
 /// What the background found; it goes on while pages are looked at.
-std::string recordings_checked(const RecordingsChecked& checked) {
+/// @param told problems that stand on the page already
+std::string recordings_checked(RecordingsChecked checked, const std::vector<std::string>& told) {
   std::string out;
-  if (!checked.finished_utc.empty())
-    out = checked.problems.empty()
-              ? "<p class=\"notice\">" + shape("pass") +
-                    "Each recording is its attempt's and gives the stored score (" +
-                    escape_html(checked.finished_utc.substr(0, 10) + ", " + checked.finished_utc.substr(11, 5)) +
-                    " UTC).</p>"
-              : problem_list(checked.problems);
+  const bool sound = checked.problems.empty();
+  std::erase_if(checked.problems,
+                [&](const std::string& problem) { return std::find(told.begin(), told.end(), problem) != told.end(); });
+  if (!checked.finished_utc.empty() && (sound || !checked.problems.empty()))
+    out = sound ? "<p class=\"notice\">" + shape("pass") +
+                      "Each recording is its attempt's and gives the stored score (" +
+                      escape_html(checked.finished_utc.substr(0, 10) + ", " + checked.finished_utc.substr(11, 5)) +
+                      " UTC).</p>"
+                : problem_list(checked.problems);
   if (checked.running)
     out += "<p class=\"dim\">Grading every attempt again from its recording: " + std::to_string(checked.done) + " of " +
            std::to_string(checked.all) + ".</p>";
@@ -50,7 +53,7 @@ std::string check_section(const RecordView& view, const Frame& frame) {
     out = "<p class=\"notice\" role=\"status\">" + shape("pass") +
           "Sound: file, schema, references, hash chain, audit trail, signatures, anchor and recordings.</p>";
   if (view.problems && !view.problems->empty()) out = problem_list(*view.problems);
-  if (view.recordings) out += recordings_checked(*view.recordings);
+  if (view.recordings) out += recordings_checked(*view.recordings, view.problems.value_or(std::vector<std::string>{}));
   for (const std::string& remark : view.remarks)
     out += "<p class=\"dim\">" + shape("integrity") + "Remark: " + escape_html(remark) + "</p>";
   return section("check", "Check",

@@ -38,7 +38,10 @@ void add_trace(AttemptView& view, Desk& desk) {
     view.no_trace = "This desk cannot read recordings.";
   } else {
     try {
-      view.trace = desk.sources.trace(view.result.recording_path);
+      if (recording_exchanged(view.result))
+        view.no_trace = "Another file lies in the place of its recording: it says nothing of this attempt.";
+      else
+        view.trace = desk.sources.trace(view.result.recording_path);
       if (view.result.cut_off && desk.sources.recorded_outcome)
         view.recorded = desk.sources.recorded_outcome(desk.database, view.result);
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/session/keeping/attempt_keeping.h"
+#include "haptics/input_error.h"
 #include "tests/app/session/playback/playback_samples.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "trainees/store/sqlite_handle.h"
@@ -46,6 +47,25 @@ class RecordingsChecked : public ::testing::Test {
   Database database_{folder_ / "t.db"};
   AttemptStore store_{database_};
 };
+
+TEST_F(RecordingsChecked, AnotherPutInItsPlaceWhileTheAttemptRunsIsNotGraded) {
+  const AttemptResult expert = attempted("T-expert", "expert");
+  const Scene scene = short_scene("novice");
+  const AttemptId id = store_.begin_attempt(attempt_start(scene, "T-novice"));
+  SessionHooks hooks;
+  bool exchanged = false;
+  hooks.observe = [&](const SessionView& view) {
+    if (exchanged || view.t_s < 2) return;
+    exchanged = true;
+    fs::copy_file(expert.recording_path, id.recording.string() + ".new");
+    fs::rename(id.recording.string() + ".new", id.recording);
+  };
+  EXPECT_THROW(record_or_abort(store_, id, scene, find_assets(), hooks), EnvironmentError);
+  const AttemptResult stored = store_.load(id.uuid);
+  EXPECT_EQ(stored.grade.status, AttemptStatus::kAborted);
+  EXPECT_FALSE(stored.grade.score);
+  EXPECT_NE(stored.integrity.find("was put in its place"), std::string::npos) << stored.integrity;
+}
 
 TEST_F(RecordingsChecked, AnHonestRecordIsSound) {
   attempted("T-expert", "expert");

@@ -1,10 +1,12 @@
 // What pages of a desk for many stations say of the centre, and of recordings that are elsewhere.
 #include <gtest/gtest.h>
 
+#include "haptics/digest/digest.h"
 #include "tests/trainees/desk/pages/page_checker.h"
 #include "tests/trainees/desk/pages/page_samples.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_views.h"
+#include "trainees/files/write_file.h"
 #include "trainees/records/replica_facts.h"
 
 namespace trocar::review::central_status_test {
@@ -74,6 +76,22 @@ TEST_F(ElsewhereRecorded, AnAttemptOfAStationSaysWhereItsRecordingIs) {
             "");
   EXPECT_TRUE(holds(attempt_view(desk, {}, id.uuid).no_trace, "The recording is at station north"));
   EXPECT_FALSE(attempt_view(desk, {}, id.uuid).picture);
+}
+
+TEST_F(ElsewhereRecorded, AnotherFileInItsPlaceSaysNothingOfTheAttempt) {
+  Database database(folder_ / "desk.db");
+  AttemptStart start = sample_start("T-a");
+  start.recording = folder_ / "a.trec";
+  AttemptResult result = sample_result();
+  result.recording_sha256 = digest::of_bytes("as it was kept");
+  Desk desk{database};
+  desk.sources.trace = [](const std::filesystem::path&) { return Trace{}; };
+  write_file(*start.recording, "as it was kept");
+  const AttemptId id = store_attempt(database, start, result);
+  EXPECT_TRUE(attempt_view(desk, {}, id.uuid).trace);
+  write_file(*start.recording, "another");
+  EXPECT_FALSE(attempt_view(desk, {}, id.uuid).trace);
+  EXPECT_TRUE(holds(attempt_view(desk, {}, id.uuid).no_trace, "Another file lies in the place of its recording"));
 }
 
 TEST_F(ElsewhereRecorded, TheFrameAsksHowTheCentreStands) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tests/trainees/desk/pages/page_checker.h"
 #include "tests/trainees/desk/pages/page_samples.h"
@@ -421,7 +422,7 @@ TEST_F(DeskFolders, NoPageTellsWhereTheRecordLies) {
   std::filesystem::create_directories(id.recording.parent_path());
   std::ofstream(id.recording) << "motion";
   AttemptResult result = sample_result();
-  result.recording_sha256 = std::string(64, 'b');
+  result.recording_sha256 = digest::of_bytes("motion");
   store.finish_attempt(id, result);
   Desk desk{database, {}, false};
   desk.sources.trace = [](const std::filesystem::path& file) -> Trace {
