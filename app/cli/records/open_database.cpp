@@ -32,9 +32,8 @@ Database open_database(const std::filesystem::path& file, OpenMode mode, std::os
   }
   if (!database.in_memory() && !station_keys(database).empty() && !std::filesystem::exists(key_path(database.file())))
     err << database.file().string() << ": its key " << key_path(database.file()).filename().string()
-        << " is missing: what is written now is not signed, and db check tells of it for ever. Put it back, or make a "
-           "new "
-           "one by trocar db key --renew\n";
+        << " is missing: what is written now is not signed, which db check tells for ever. Put it back, or make a new "
+           "one with trocar db key --renew\n";
   for (const RecoveredAttempt& attempt : database.recovered()) {
     err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was cut off and is now marked as aborted; "
         << (attempt.recording.empty() ? "it left no recording"
