@@ -20,8 +20,9 @@ struct DeskRecordingCheck::State {
         known.all = all;
         return !stop.stop_requested();
       };
-      found = AttemptStore(database).check_recordings();  // missing and exchanged ones
-      for (std::string& problem : check_by_recordings(database, {1, going})) found.push_back(std::move(problem));
+      found = check_by_recordings(database, {1, going});
+      if (!stop.stop_requested())  // missing and exchanged ones; this cannot be stopped, so it comes last
+        for (std::string& problem : AttemptStore(database).check_recordings()) found.push_back(std::move(problem));
     } catch (const std::exception& error) {
       found = {std::string("the recordings could not be checked: ") + error.what()};
     }
