@@ -16,6 +16,7 @@
 #include "app/picture/films/film.h"
 #include "app/picture/films/video_writer.h"
 #include "app/picture/gl/headless_context.h"
+#include "app/session/keeping/recording_check.h"
 #include "haptics/input_error.h"
 #include "trainees/records/attempt_store.h"
 
@@ -59,8 +60,8 @@ Subject subject_of(Database& database, const std::string& uuid) {
   std::error_code ignored;
   if (file.empty() || !fs::is_regular_file(file, ignored))
     throw InputError("attempt " + uuid + ": there is no recording of it, so there can be no film");
-  if (recording_exchanged(stored))
-    throw InputError("attempt " + uuid + ": another file lies in the place of its recording");
+  if (const std::string foreign = foreign_recording(database, stored); !foreign.empty())
+    throw InputError("attempt " + uuid + ": " + foreign);
   return {found.trainee, file};
 }
 

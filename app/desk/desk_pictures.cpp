@@ -13,6 +13,7 @@
 
 #include "app/picture/attempt/attempt_picture.h"
 #include "app/picture/maps/heat_painter.h"
+#include "app/session/keeping/recording_check.h"
 #include "app/session/playback/recorded_run.h"
 #include "app/session/recording/recording_reader.h"
 #include "haptics/input_error.h"
@@ -112,8 +113,8 @@ Loaded& DeskPictures::State::load(const std::string& wanted_uuid) {
   const AttemptResult stored = store.load(found.row);
   const std::string& file = stored.recording_path;
   if (file.empty()) throw InputError("attempt " + wanted_uuid + ": was not recorded, so there are no pictures of it");
-  if (recording_exchanged(stored))
-    throw InputError("attempt " + wanted_uuid + ": another file lies in the place of its recording");
+  if (const std::string foreign = foreign_recording(database, stored); !foreign.empty())
+    throw InputError("attempt " + wanted_uuid + ": " + foreign);
   if (loaded.size() >= kRuns) loaded.pop_back();
   loaded.push_front({wanted_uuid, found.trainee, file, RecordedRun::in_background(file, assets)});
   return loaded.front();

@@ -4,6 +4,7 @@
 
 #include "app/desk/desk_facts.h"
 #include "app/session/grading/recorded_result.h"
+#include "app/session/keeping/recording_check.h"
 #include "app/session/recording/recording_reader.h"
 #include "haptics/input_error.h"
 #include "scenarios/scoring/metrics.h"
@@ -54,6 +55,7 @@ std::unique_ptr<DeskFilms> desk_films(const std::filesystem::path& file, std::st
 review::DeskSources desk_sources() {
   review::DeskSources out;
   out.trace = trace_of;
+  out.foreign_recording = foreign_recording;
   out.stiffness = stiffness_of;
   out.metric_words = words_of_metric;
   out.level_facts = desk_level_facts;

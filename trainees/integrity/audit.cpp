@@ -1,6 +1,7 @@
 #include "trainees/integrity/audit.h"
 
 #include <sqlite3.h>
+#include <nlohmann/json.hpp>
 
 #include "haptics/digest/digest.h"
 #include "trainees/integrity/station_key.h"
@@ -77,6 +78,29 @@ void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
   while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");
 }
 
+/// Begun attempts stay, and each that ended or runs since the first such entry has one. A row that ended was compared
+/// with what it began with, and is sealed; one that was cut off was not.
+void check_begun(sqlite3* connection, std::vector<std::string>& problems) {
+  sql::Statement gone(connection,
+                      "SELECT subject, utc FROM audit u WHERE action = ? AND NOT EXISTS"
+                      " (SELECT 1 FROM attempt a WHERE a.uuid = u.subject)");
+  gone.bind(kActionBegun);
+  while (gone.step()) problems.push_back("attempt " + gone.text(0) + ", begun " + gone.text(1) + ", is missing");
+  sql::Statement rows(connection,
+                      "SELECT uuid FROM attempt a WHERE id NOT IN (SELECT attempt_id FROM replica) AND (cut_off ="
+                      " 1 OR NOT EXISTS (SELECT 1 FROM audit u WHERE u.subject = a.uuid AND u.action = ?1)) AND"
+                      " (status = 'running' OR (SELECT max(position) FROM audit u WHERE u.subject = a.uuid AND"
+                      " u.action = ?2) > (SELECT min(position) FROM audit WHERE action = ?1)) ORDER BY id");
+  rows.bind(kActionBegun).bind(kActionFinished);
+  while (rows.step())
+    if (const std::string problem = begun_problem(connection, rows.text(0)); !problem.empty())
+      problems.push_back("attempt " + rows.text(0) + ": " + problem);
+}
+
+std::string begun_digest(sqlite3* connection, const std::string& uuid) {
+  return digest::of_bytes(identity_of(connection, uuid, "").dump());
+}
+
 std::string field_at(sqlite3* connection, const char* query, std::int64_t position) {
   sql::Statement row(connection, query);
   return row.bind(position).step() ? row.text(0) : "";
@@ -95,6 +119,18 @@ void append_audit(sqlite3* connection, const std::string& action, const std::str
   const auto key = station_key(connection);
   insert.bind(head.position + 1).bind(utc).bind(actor).bind(action).bind(subject).bind(detail).bind(head.row_hash);
   insert.bind(hash).bind(key ? key->sign(head_text(hash)) : "").run();
+}
+
+void audit_begun(sqlite3* connection, const std::string& uuid) {
+  append_audit(connection, kActionBegun, uuid, begun_digest(connection, uuid));
+}
+
+std::string begun_problem(sqlite3* connection, const std::string& uuid) {
+  sql::Statement any(connection, "SELECT 1 FROM audit WHERE action = ? LIMIT 1");
+  if (!any.bind(kActionBegun).step()) return "";
+  sql::Statement entry(connection, "SELECT detail FROM audit WHERE subject = ? AND action = ?");
+  if (!entry.bind(uuid).bind(kActionBegun).step()) return "no entry says that it began: its row was put in";
+  return entry.text(0) == begun_digest(connection, uuid) ? "" : "its row is not as it began: it was changed";
 }
 
 AuditHead audit_head(sqlite3* connection) {
@@ -135,6 +171,7 @@ std::vector<std::string> check_audit(sqlite3* connection) {
   check_links(connection, problems);
   check_signatures(connection, problems);
   check_attempts(connection, problems);
+  check_begun(connection, problems);
   // AUTOINCREMENT counts every attempt that was ever begun, also one that never finished.
   if (sql::query_integer(connection,
                          "SELECT coalesce((SELECT seq FROM sqlite_sequence WHERE name = 'attempt'), 0) >"

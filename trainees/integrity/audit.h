@@ -15,6 +15,7 @@ struct sqlite3;
 
 namespace trocar {
 
+inline constexpr const char* kActionBegun = "attempt begun";        ///< subject: uuid, detail: digest of identity_of()
 inline constexpr const char* kActionFinished = "attempt finished";  ///< subject: uuid, detail: row_hash
 inline constexpr const char* kActionReplicated =
     "attempt replicated";                                      ///< of another station; subject: uuid, detail: row_hash
@@ -36,6 +37,13 @@ void append_audit(sqlite3* connection, const std::string& action, const std::str
                   const std::string& actor = "trocar");
 
 AuditHead audit_head(sqlite3* connection);
+
+/// The entry of an attempt that begins: a row put in or changed without the key is told from one that began.
+void audit_begun(sqlite3* connection, const std::string& uuid);
+
+/// Why the attempt's row is not the one that began, "" when it is. Nothing is known while the trail has no attempt that
+/// began: an earlier program made no such entries.
+std::string begun_problem(sqlite3* connection, const std::string& uuid);
 
 /// What the station's key signs of an entry.
 std::string head_text(const std::string& row_hash);

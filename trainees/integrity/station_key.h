@@ -39,6 +39,9 @@ struct AnnouncedKey {
 /// Beside a copy. @throws EnvironmentError.
 void write_station_key(const std::filesystem::path& database, const SigningKey& key);
 
+/// What to say where the record names a key and its file is gone, "" when it is there.
+std::string lost_key(sqlite3* connection);
+
 /// In order; empty where the database never had one (in memory, before schema 2).
 std::vector<AnnouncedKey> announced_keys(sqlite3* connection);
 

@@ -7,6 +7,12 @@
 #include <ctime>
 #include <random>
 
+#include <nlohmann/json.hpp>
+
+#include "haptics/input_error.h"
+#include "trainees/records/replica_facts.h"
+#include "trainees/store/sqlite_handle.h"
+
 namespace trocar {
 namespace {
 
@@ -57,6 +63,17 @@ std::string utc_now() {
   const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
   std::snprintf(text + size, sizeof text - size, ".%03dZ", static_cast<int>(now / 1'000'000 % 1000));
   return text;
+}
+
+nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
+  static const std::string kQuery = "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
+                                    ", exercise_id, ruleset_sha256, level, seed, board, hand FROM attempt a"
+                                    " JOIN trainee t ON t.id = a.trainee_id WHERE a.uuid = ?";
+  sql::Statement row(connection, kQuery);
+  if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
+  return {{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
+          {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
+          {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
 }
 
 }  // namespace trocar

@@ -1,8 +1,12 @@
-// Names and times of attempts: time-ordered UUIDs (RFC 9562 version 7) and UTC in ISO 8601. Wall clock: informative
-// only, never used for scoring. Thread: any.
+// Names and times of attempts: time-ordered UUIDs (RFC 9562 version 7) and UTC in ISO 8601; and whose one is. Wall
+// clock: informative only, never used for scoring. Thread: any.
 #pragma once
 
 #include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+struct sqlite3;
 
 namespace trocar {
 
@@ -15,5 +19,9 @@ std::string make_uuid_after(const std::string& before);
 
 /// "2026-03-01T09:30:00.123Z"
 std::string utc_now();
+
+/// What an attempt began with and what its recording says of it: attempt, trainee (where it began), exercise, ruleset,
+/// level, seed, board, hand, and the key given. @throws InputError: no such attempt.
+nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key);
 
 }  // namespace trocar

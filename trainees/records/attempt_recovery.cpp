@@ -5,6 +5,7 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/records/attempt_rows.h"
 #include "trainees/records/process_identity.h"
 #include "trainees/store/sqlite_handle.h"
@@ -36,25 +37,26 @@ std::vector<RunningAttempt> running_attempts(sqlite3* connection) {
 }
 
 /// Nothing but what is left of an attempt that was cut off.
-AttemptResult aborted_result(const fs::path& recording) {
+/// @param problem why its row is not the one that began, "" when it is.
+AttemptResult aborted_result(const fs::path& recording, const std::string& problem) {
   AttemptResult result;
   result.grade.status = AttemptStatus::kAborted;
   result.grade.grade = "not graded";
-  result.integrity = "its program ended before the attempt was stored";
+  result.integrity = problem.empty() ? "its program ended before the attempt was stored" : problem;
   result.cut_off = true;
   if (!recording.empty()) result.recording_sha256 = digest::of_readable_file(recording);
   return result;
 }
 
 /// @returns false when another program has ended the attempt in the meantime.
-bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const AttemptResult& result,
-                 const std::string& recording) {
+bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const fs::path& recording) {
   sql::Transaction transaction(connection);
   {
     sql::Statement again(connection, "SELECT 1 FROM attempt WHERE id = ? AND status = 'running'");
     if (!again.bind(attempt.id).step()) return false;
   }
-  write_result(connection, attempt.id, result, recording);
+  write_result(connection, attempt.id, aborted_result(recording, begun_problem(connection, attempt.uuid)),
+               recording.empty() ? "" : attempt.stored_recording);
   transaction.commit();
   return true;
 }
@@ -69,7 +71,7 @@ std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const f
     std::error_code error;
     const bool left = !recording.empty() && fs::is_regular_file(recording, error);
     const fs::path kept = left ? recording : fs::path();
-    if (!end_attempt(connection, attempt, aborted_result(kept), left ? attempt.stored_recording : "")) continue;
+    if (!end_attempt(connection, attempt, kept)) continue;
     recovered.push_back({attempt.uuid, attempt.trainee, kept});
   }
   return recovered;

@@ -82,6 +82,13 @@ void insert_device_rows(sqlite3* connection, std::int64_t attempt, const RunRepo
   }
 }
 
+/// UUID of another attempt that has the very recording, "" when none; asked of what no program graded.
+std::string also_recorded_by(sqlite3* connection, std::int64_t attempt, const AttemptResult& result) {
+  if (result.grade.score || result.recording_sha256.empty()) return "";
+  sql::Statement other(connection, "SELECT uuid FROM attempt WHERE recording_sha256 = ? AND id <> ?");
+  return other.bind(result.recording_sha256).bind(attempt).step() ? other.text(0) : "";
+}
+
 void update_attempt(sqlite3* connection, std::int64_t row, const AttemptResult& result, const std::string& recording,
                     const std::string& ended_utc) {
   sql::Statement update(
@@ -129,8 +136,36 @@ void read_device_rows(sqlite3* connection, std::int64_t attempt, RunReport& devi
 
 }  // namespace
 
-void write_result(sqlite3* connection, std::int64_t attempt, const AttemptResult& result, const std::string& recording,
+std::int64_t remove_attempt_rows(sqlite3* connection, std::int64_t attempt) {
+  const std::int64_t before = sql::changes_of(connection);
+  const auto remove = [connection](const std::string& rows, std::int64_t of) {
+    sql::Statement(connection, "DELETE FROM " + rows).bind(of).run();
+  };
+  std::vector<std::int64_t> scores;
+  sql::Statement of_attempt(connection, "SELECT id FROM score WHERE attempt_id = ?");
+  of_attempt.bind(attempt);
+  while (of_attempt.step()) scores.push_back(of_attempt.integer(0));
+  for (const std::int64_t score : scores) {
+    for (const char* table : {"metric_row", "subscore_row"})
+      remove(std::string(table) + " WHERE id BETWEEN ?1 << 10 AND ?1 << 10 | 1023", score);
+    remove("score_cap WHERE score_id = ?", score);
+  }
+  for (const char* table : {"event_row", "device_transition_row"})
+    remove(std::string(table) + " WHERE id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575", attempt);
+  for (const char* table : {"score", "device_warning"}) remove(std::string(table) + " WHERE attempt_id = ?", attempt);
+  return sql::changes_of(connection) - before;
+}
+
+void write_result(sqlite3* connection, std::int64_t attempt, AttemptResult result, std::string recording,
                   const std::string& ended_utc) {
+  const auto tell = [&result](const std::string& words) {
+    result.integrity += (result.integrity.empty() ? "" : "; ") + words;
+  };
+  if (remove_attempt_rows(connection, attempt) > 0) tell("rows that were put in for it while it ran were removed");
+  if (const std::string other = also_recorded_by(connection, attempt, result); !other.empty()) {
+    tell("in the place of its recording lies that of attempt " + other);
+    recording = result.recording_sha256 = "";
+  }
   const std::string utc = ended_utc.empty() ? utc_now() : ended_utc;
   insert_events(connection, attempt, result.events);
   insert_device_rows(connection, attempt, result.device);

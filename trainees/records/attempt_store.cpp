@@ -9,6 +9,7 @@
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/attempt_chain.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
@@ -43,19 +44,21 @@ fs::path recording_beside(const Database& database, const std::string& uuid) {
   return recordings_folder(database.file()) / (uuid + ".trec");
 }
 
-/// An attempt is stored before its recording is made, so one without the other was removed.
+/// An attempt is stored before its recording is made, so one without the other was removed. One that was kept without a
+/// recording has none (another's lay in its place).
 std::vector<std::string> stray_recordings(const Database& database) {
   std::vector<std::string> strays;
   std::error_code error;
-  sql::Statement known(database.connection(), "SELECT 1 FROM attempt WHERE uuid = ?");
+  sql::Statement known(database.connection(),
+                       "SELECT status = 'running' OR recording_sha256 <> '' FROM attempt WHERE uuid = ?");
   for (const auto& entry : fs::directory_iterator(recording_beside(database, "").parent_path(), error)) {
     if (entry.path().extension() != ".trec") continue;
-    if (known.bind(entry.path().stem().string()).step()) {
-      known.run();
-      continue;
-    }
+    const bool attempt = known.bind(entry.path().stem().string()).step(), its = attempt && known.integer(0) != 0;
     known.run();
-    strays.push_back("recording " + entry.path().string() + " belongs to no attempt of this database");
+    if (its) continue;
+    strays.push_back("recording " + entry.path().string() +
+                     (attempt ? " bears the name of an attempt that was kept without one"
+                              : " belongs to no attempt of this database"));
   }
   std::sort(strays.begin(), strays.end());
   return strays;
@@ -202,18 +205,6 @@ void check_name(std::string_view name) {
   }
 }
 
-/// What a recording says of the attempt that it is of.
-nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
-  static const std::string kQuery = "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
-                                    ", exercise_id, ruleset_sha256, level, seed, board, hand FROM attempt a"
-                                    " JOIN trainee t ON t.id = a.trainee_id WHERE a.uuid = ?";
-  sql::Statement row(connection, kQuery);
-  if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
-  return {{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
-          {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
-          {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
-}
-
 /// An exam board is met once, however the first sitting ended. Seeds do not tell: two of them can draw one board.
 void refuse_second_exam(sqlite3* connection, const AttemptStart& start, std::int64_t trainee) {
   sql::Statement taken(connection,
@@ -247,6 +238,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   if (!database_->in_memory()) {  // what vanishes with the program binds nothing, and equal runs give equal files
     id.key = station_key(database_->file());
     id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump();
+    audit_begun(connection, id.uuid);
   }
   transaction.commit();
   return id;
@@ -354,7 +346,7 @@ std::string AttemptStore::recording_problem(const std::string& attempt_uuid, con
   const bool of_another_station = attempt.integer(1) != 0;  // whose keys stand in its own trail
   const auto said = nlohmann::ordered_json::parse(identity, nullptr, false);
   if (!said.is_object()) return "does not say whose it is";
-  const auto wanted = identity_of(connection, attempt_uuid, said.value("key", ""));
+  const nlohmann::ordered_json wanted = identity_of(connection, attempt_uuid, said.value("key", ""));
   for (const auto& [name, value] : wanted.items())
     if (said.value(name, nlohmann::ordered_json()) != value)
       return "is of another attempt: " + name + " " + said.value(name, nlohmann::ordered_json()).dump() +

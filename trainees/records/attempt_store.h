@@ -133,6 +133,8 @@ class AttemptStore {
   Database* database_;
 };
 
+inline constexpr const char* kAnotherFile = "another file lies in the place of its recording";
+
 /// Whether what lies in the place of its recording is another file than the attempt was kept with. @throws
 /// EnvironmentError: it cannot be read.
 bool recording_exchanged(const AttemptResult& stored);

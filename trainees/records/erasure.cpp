@@ -81,24 +81,6 @@ void remove_rows(sqlite3* connection, const Erased& erased, const std::string& t
   sql::Statement(connection, "DELETE FROM " + table + " WHERE " + where).bind(erased.id).run();
 }
 
-/// Events, transitions, metrics and sub-scores, whose number says whose they are (schema.cpp).
-void remove_numbered(sqlite3* connection, const Erased& erased) {
-  sql::Statement events(connection, "DELETE FROM event_row WHERE id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575");
-  sql::Statement changes(connection,
-                         "DELETE FROM device_transition_row WHERE id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575");
-  sql::Statement metrics(connection, "DELETE FROM metric_row WHERE id BETWEEN ?1 << 10 AND ?1 << 10 | 1023");
-  sql::Statement subscores(connection, "DELETE FROM subscore_row WHERE id BETWEEN ?1 << 10 AND ?1 << 10 | 1023");
-  sql::Statement rows(
-      connection, "SELECT a.id, s.id FROM attempt a LEFT JOIN score s ON s.attempt_id = a.id WHERE a.trainee_id = ?");
-  rows.bind(erased.id);
-  while (rows.step()) {
-    for (sql::Statement* of_attempt : {&events, &changes}) of_attempt->bind(rows.integer(0)).run();
-    if (rows.is_null(1)) continue;
-    metrics.bind(rows.integer(1)).run();
-    subscores.bind(rows.integer(1)).run();
-  }
-}
-
 /// @returns how many notes went.
 int erase_identity(sqlite3* connection, const Erased& erased, const Author& author) {
   for (const char* table : {"signature", "rating"}) erase_rows(connection, erased, table, kOwnWords, author);
@@ -113,16 +95,14 @@ int erase_identity(sqlite3* connection, const Erased& erased, const Author& auth
 }
 
 void erase_training(sqlite3* connection, const Erased& erased, const Author& author) {
-  const std::string of_score =
-      "score_id IN (SELECT s.id FROM score s JOIN attempt a ON a.id = s.attempt_id WHERE a.trainee_id = ?1)";
   for (const char* table : {"rating", "signature", "verdict_override"})
     erase_rows(connection, erased, table, kOnAttempts, author);
   erase_rows(connection, erased, "revocation", "certificate_id IN (SELECT id FROM certificate WHERE trainee_id = ?1)",
              author);
   erase_rows(connection, erased, "certificate", "trainee_id = ?1", author);
-  remove_rows(connection, erased, "score_cap", of_score);
-  remove_numbered(connection, erased);
-  for (const char* table : {"score", "device_warning"}) remove_rows(connection, erased, table, kOnAttempts);
+  sql::Statement attempts(connection, "SELECT id FROM attempt WHERE trainee_id = ?");
+  attempts.bind(erased.id);
+  while (attempts.step()) remove_attempt_rows(connection, attempts.integer(0));
 }
 
 std::vector<KeptRecording> recordings_of(const Database& database, const Erased& erased) {

@@ -25,7 +25,10 @@ constexpr std::string_view kRuns[] = {"01234567890123456789",
 constexpr std::string_view kCommon[] = {
     "password", "passwort",      "motdepasse", "letmein", "welcome",    "willkommen", "iloveyou",    "trustno1",
     "dragon",   "administrator", "instructor", "trocar",  "1q2w3e4r5t", "changeme",   "laparoscopy", "simulator"};
-constexpr std::string_view kCommonPins[] = {"112233", "123321", "159753", "147258", "246810", "135790", "102030"};
+/// Ways over the keys of a number pad, and steps by two.
+constexpr std::string_view kCommonPins[] = {"112233", "123321", "159753", "753159", "357159", "159357", "951357",
+                                            "147258", "258147", "258369", "369258", "147369", "741852", "852741",
+                                            "852963", "963852", "789456", "456123", "246810", "135790", "102030"};
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -63,13 +66,35 @@ bool of_neighbours(const std::string& text) {
   return true;
 }
 
-/// The word, and fewer than 4 characters before and behind it that are no letters.
+bool letter(char c) { return c >= 'a' && c <= 'z'; }
+
+/// At most 4 characters that are no letters: what people add to a word.
+bool little(const std::string& rest) {
+  constexpr std::size_t kMost = 4;
+  return rest.size() <= kMost && std::none_of(rest.begin(), rest.end(), letter);
+}
+
+/// The word, and little before and behind it.
 bool common_with(const std::string& text, std::string_view word) {
-  constexpr std::size_t kMore = 4;
   const std::size_t at = text.find(word);
   if (word.empty() || at == std::string::npos) return false;
-  const std::string rest = text.substr(0, at) + text.substr(at + word.size());
-  return rest.size() <= kMore && std::none_of(rest.begin(), rest.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+  return little(text.substr(0, at) + text.substr(at + word.size()));
+}
+
+/// The parts of a login ("ines" and "brandt" of ines.brandt) in any order, and little besides.
+bool of_parts(std::string text, const std::string& login) {
+  constexpr std::size_t kLeast = 3;
+  bool found = false;
+  for (auto at = login.begin(); at != login.end();) {
+    const auto begin = std::find_if(at, login.end(), letter), end = std::find_if_not(begin, login.end(), letter);
+    at = end;
+    const std::string part(begin, end);
+    const std::size_t place = part.size() < kLeast ? std::string::npos : text.find(part);
+    if (place == std::string::npos) continue;
+    text.erase(place, part.size());
+    found = true;
+  }
+  return found && little(text);
 }
 
 bool listed(const std::string& text, bool pin) {
@@ -97,7 +122,7 @@ void check_password(const std::string& password, Role role, const std::string& l
   if (few_characters(text) || repeated(text))
     throw InputError(name + ": this one repeats itself, and is guessed first; take another");
   if (of_neighbours(text)) throw InputError(name + ": this one is a sequence, and is guessed first; take another");
-  if (text == own || common_with(text, own) || text == std::string(own.rbegin(), own.rend()))
+  if (text == own || common_with(text, own) || of_parts(text, own) || text == std::string(own.rbegin(), own.rend()))
     throw InputError(name + ": this one is the login, and is guessed first; take another");
   if (listed(text, pin))
     throw InputError(name + ": this one is among the most common, and is guessed first; take another");

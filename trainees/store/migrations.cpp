@@ -104,8 +104,10 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
-  static const Migration kMigrations[] = {
-      {1, schema_sql(), note_migration}, {2, kSignatures, note_migration}, {3, programme_schema_sql(), note_migration}};
+  static const Migration kMigrations[] = {{1, schema_sql(), note_migration},
+                                          {2, kSignatures, note_migration},
+                                          {3, programme_schema_sql(), note_migration},
+                                          {4, running_rows_schema_sql(), note_migration}};
   return kMigrations;
 }
 

@@ -20,6 +20,8 @@
 #include "trainees/store/schema.h"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace trocar {
 namespace {
@@ -618,30 +620,38 @@ std::string never_replaced(const std::string& table, const std::string& same = "
                "the row exists already");
 }
 
-/// Rows of an attempt come while it runs and go only with an erasure of training data. @param attempt SQL for its
-/// number, of ROW.
-std::string attempt_row_guards(const std::string& table, const std::string& attempt) {
-  const auto of = [&attempt](const std::string& row) {
-    std::string sql = attempt;
-    return sql.replace(sql.find("ROW"), 3, row);
-  };
-  return guard(
-             table, "late",
-             "INSERT ON " + table + " WHEN (SELECT status FROM attempt WHERE id = " + of("NEW") + ") IS NOT 'running'",
-             "a finished attempt cannot be added to") +
-         never_changed(table) +
-         never_deleted(table, "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = " +
-                                  of("OLD") + " AND e.kind = 'training'");
+/// The tables of rows of an attempt, each with SQL for the attempt's number, of ROW.
+const std::vector<std::pair<std::string, std::string>>& attempt_row_tables() {
+  const char* const of_score = "(SELECT attempt_id FROM score WHERE id = ROW.id >> 10)";
+  static const std::vector<std::pair<std::string, std::string>> kTables{
+      {"score", "ROW.attempt_id"},
+      {"device_warning", "ROW.attempt_id"},
+      {"event_row", "ROW.id >> 20"},
+      {"device_transition_row", "ROW.id >> 20"},
+      {"metric_row", of_score},
+      {"subscore_row", of_score},
+      {"score_cap", "(SELECT attempt_id FROM score WHERE id = ROW.score_id)"}};
+  return kTables;
 }
 
+std::string of_row(std::string attempt, const std::string& row) { return attempt.replace(attempt.find("ROW"), 3, row); }
+
+std::string erased_with(const std::string& attempt) {
+  return "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = " +
+         of_row(attempt, "OLD") + " AND e.kind = 'training'";
+}
+
+/// Rows of an attempt come while it runs and go only with an erasure of training data.
 std::string rows_of_attempts() {
   std::string sql;
-  for (const char* table : {"score", "device_warning"}) sql += attempt_row_guards(table, "ROW.attempt_id");
-  for (const char* table : {"event_row", "device_transition_row"}) sql += attempt_row_guards(table, "ROW.id >> 20");
-  for (const char* table : {"metric_row", "subscore_row"}) {
-    sql += attempt_row_guards(table, "(SELECT attempt_id FROM score WHERE id = ROW.id >> 10)");
+  for (const auto& [table, attempt] : attempt_row_tables()) {
+    sql += guard(table, "late",
+                 "INSERT ON " + table + " WHEN (SELECT status FROM attempt WHERE id = " + of_row(attempt, "NEW") +
+                     ") IS NOT 'running'",
+                 "a finished attempt cannot be added to") +
+           never_changed(table) + never_deleted(table, erased_with(attempt));
   }
-  return sql + attempt_row_guards("score_cap", "(SELECT attempt_id FROM score WHERE id = ROW.score_id)");
+  return sql;
 }
 
 /// Kept for good, with a number that nothing takes over.
@@ -699,6 +709,19 @@ const char* programme_schema_sql() {
                          "SELECT 1 FROM erasure e JOIN assignment a ON a.trainee_id = e.trainee_id"
                          " WHERE a.id = OLD.assignment_id");
     return sql + never_replaced("withdrawal", "uuid = NEW.uuid OR assignment_id = NEW.assignment_id");
+  }();
+  return kSql.c_str();
+}
+
+const char* running_rows_schema_sql() {
+  static const std::string kSql = [] {
+    std::string sql;
+    for (const auto& [table, attempt] : attempt_row_tables()) {
+      sql += "DROP TRIGGER " + table + "_no_delete;\n" +
+             never_deleted(table, erased_with(attempt) + " UNION ALL SELECT 1 FROM attempt WHERE id = " +
+                                      of_row(attempt, "OLD") + " AND status = 'running'");
+    }
+    return sql;
   }();
   return kSql.c_str();
 }

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <ostream>
 
-#include "trainees/integrity/witness.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/store/record_files.h"
 
 namespace trocar {
@@ -30,10 +30,8 @@ Database open_database(const std::filesystem::path& file, OpenMode mode, std::os
     if (!migration.compacted)
       err << database.file().string() << ": its file keeps its size for now; new attempts use the room in it\n";
   }
-  if (!database.in_memory() && !station_keys(database).empty() && !std::filesystem::exists(key_path(database.file())))
-    err << database.file().string() << ": its key " << key_path(database.file()).filename().string()
-        << " is missing: what is written now is not signed, which db check tells for ever. Put it back, or make a new "
-           "one with trocar db key --renew\n";
+  if (const std::string lost = lost_key(database.connection()); !lost.empty())
+    err << database.file().string() << ": " << lost << '\n';
   for (const RecoveredAttempt& attempt : database.recovered()) {
     err << "attempt " << attempt.uuid << " of " << attempt.trainee << " was cut off and is now marked as aborted; "
         << (attempt.recording.empty() ? "it left no recording"

@@ -35,15 +35,30 @@ std::string graded_problem(const AttemptResult& stored, const Recording& recordi
              : "gives " + outcome_words(again) + "; the record says " + outcome_words(stored.grade);
 }
 
+bool kept_here(const AttemptResult& stored) {
+  return !stored.recording_sha256.empty() && std::filesystem::is_regular_file(stored.recording_path);
+}
+
 /// The recording that the attempt was kept with; nothing where another, or none, lies in its place.
 std::optional<Recording> kept_recording(const AttemptResult& stored) {
-  if (stored.recording_sha256.empty() || !std::filesystem::is_regular_file(stored.recording_path) ||
-      recording_exchanged(stored))
-    return std::nullopt;
+  if (!kept_here(stored) || recording_exchanged(stored)) return std::nullopt;
   return read_recording(stored.recording_path);
 }
 
 }  // namespace
+
+std::string foreign_recording(Database& database, const AttemptResult& attempt) {
+  if (recording_exchanged(attempt)) return kAnotherFile;
+  if (attempt.grade.score || !kept_here(attempt)) return "";
+  try {
+    const Recording recording = read_recording(attempt.recording_path);
+    const std::string another =
+        AttemptStore(database).recording_problem(attempt.uuid, recording.attempt, recording.signed_by);
+    return another.empty() ? "" : "what lies in the place of its recording " + another;
+  } catch (const InputError&) {
+    return "";
+  }
+}
 
 std::string recorded_outcome(Database& database, const AttemptResult& attempt) {
   try {

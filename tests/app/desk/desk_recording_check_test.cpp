@@ -96,9 +96,13 @@ TEST_F(DeskRecordings, OfACutOffAttemptSayWhatTheyGiveAndWhoseTheyAre) {
   swapped.recording_path = other.recording_path;
   swapped.recording_sha256 = other.recording_sha256;
   EXPECT_NE(recorded_outcome(database_, swapped).find("is of another attempt"), std::string::npos);
+  EXPECT_EQ(foreign_recording(database_, died), "");
+  EXPECT_NE(foreign_recording(database_, swapped).find("is of another attempt"), std::string::npos)
+      << "though these are the bytes that it was kept with";
   EXPECT_TRUE(checked().problems.empty()) << "what cut it off is no problem of the record";
   std::ofstream(died.recording_path, std::ios::app) << "x";
   EXPECT_NE(recorded_outcome(database_, died).find("is not in its place"), std::string::npos);
+  EXPECT_NE(foreign_recording(database_, died), "");
   EXPECT_EQ(checked().problems.size(), 1u) << "a file that was changed is one";
 }
 

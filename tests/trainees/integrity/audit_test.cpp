@@ -45,7 +45,7 @@ class Audit : public TemporaryFolder {
         " WHERE id >> 10 = 3; DELETE FROM score_cap WHERE score_id = 3; DELETE FROM score WHERE id = 3;"
         "DELETE FROM device_warning WHERE attempt_id = 3; DELETE FROM device_transition_row WHERE id >> 20 = 3;"
         "DELETE FROM attempt WHERE id = 3; UPDATE sqlite_sequence SET seq = 2 WHERE name = 'attempt';";
-    if (with_audit) sql += "DELETE FROM audit WHERE position = 7;";
+    if (with_audit) sql += "DELETE FROM audit WHERE position > 8;";
     outside(sql + restore);
   }
   static std::string trigger_text(sqlite3* raw, const std::string& name) {
@@ -63,8 +63,8 @@ class Audit : public TemporaryFolder {
 TEST_F(Audit, ADatabaseThatWasOnlyUsedIsSound) {
   EXPECT_EQ(problems(), "");
   std::ifstream in(anchor_path(file_));
-  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 5)
-      << "made, trainee and exercise, and three attempts";
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 7)
+      << "made, and that three attempts began (the first with trainee and exercise) and ended";
 }
 
 TEST_F(Audit, ADeletedNewestAttemptIsNoticed) {
@@ -77,7 +77,7 @@ TEST_F(Audit, ADeletedNewestAttemptIsNoticed) {
 TEST_F(Audit, ADeletedNewestAttemptWithItsEntryIsNoticedByTheAnchor) {
   remove_newest(true);
   EXPECT_EQ(problems().find("audit trail"), std::string::npos) << problems();
-  EXPECT_NE(problems().find("anchor: the newest entries are missing: entry 7"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("anchor: the newest entries are missing: entry 9"), std::string::npos) << problems();
 }
 
 TEST_F(Audit, AnOlderCopyPutBackIsNoticed) {
@@ -89,7 +89,7 @@ TEST_F(Audit, AnOlderCopyPutBackIsNoticed) {
   }
   for (const char* log : {"-wal", "-shm"}) fs::remove(file_.string() + log);
   fs::copy_file(folder_ / "copy.db", file_, fs::copy_options::overwrite_existing);
-  EXPECT_NE(problems().find("entry 8"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("entry 11"), std::string::npos) << problems();
 }
 
 TEST_F(Audit, AnotherAttemptInThePlaceOfTheNewestIsNoticed) {
@@ -98,7 +98,7 @@ TEST_F(Audit, AnotherAttemptInThePlaceOfTheNewestIsNoticed) {
     Database database(file_);
     store_attempt(database, sample_start(), sample_result(99));
   }
-  EXPECT_NE(problems().find("entry 7 of "), std::string::npos) << problems();
+  EXPECT_NE(problems().find("entry 10 of "), std::string::npos) << problems();
   EXPECT_NE(problems().find("is not the one that was anchored"), std::string::npos) << problems();
 }
 
@@ -109,7 +109,7 @@ TEST_F(Audit, AMissingAnchorIsAProblemUntilItIsRenewedOnRecord) {
     Database database(file_);
     store_attempt(database, sample_start(), sample_result());
   }
-  EXPECT_NE(problems().find("begins with entry 8: it is younger than the database"), std::string::npos) << problems();
+  EXPECT_NE(problems().find("begins with entry 11: it is younger than the database"), std::string::npos) << problems();
   { Database(file_).renew_anchor(); }
   EXPECT_EQ(problems(), "");
   sqlite3* raw = nullptr;
@@ -128,22 +128,23 @@ TEST_F(Audit, AnAnchorThatLagsOrWasCutOffByACrashIsNone) {
     store_attempt(database, sample_start(), sample_result());
   }
   EXPECT_EQ(problems(), "") << "the next line is one of its own";
-  EXPECT_NE(read_anchor(file_).find("~\n8 "), std::string::npos) << read_anchor(file_);
+  EXPECT_NE(read_anchor(file_).find("~\n11 "), std::string::npos) << read_anchor(file_);
   std::ofstream(anchor_path(file_), std::ios::app) << "nonsense\n";
   EXPECT_NE(problems().find("a line is not readable"), std::string::npos);
 }
 
 TEST_F(Audit, AChangedOrMissingEntryIsNoticed) {
-  outside("DROP TRIGGER audit_no_update; UPDATE audit SET detail = 'x' WHERE position = 5");
-  EXPECT_NE(problems().find("audit trail: entry 5 (attempt finished) was changed"), std::string::npos) << problems();
-  outside("DROP TRIGGER audit_no_delete; DELETE FROM audit WHERE position = 5");
-  EXPECT_NE(problems().find("before entry 6 (attempt finished): entries are missing"), std::string::npos);
+  outside("DROP TRIGGER audit_no_update; UPDATE audit SET detail = 'x' WHERE position = 6");
+  EXPECT_NE(problems().find("audit trail: entry 6 (attempt finished) was changed"), std::string::npos) << problems();
+  outside("DROP TRIGGER audit_no_delete; DELETE FROM audit WHERE position = 6");
+  EXPECT_NE(problems().find("before entry 7 (attempt begun): entries are missing"), std::string::npos);
   EXPECT_NE(problems().find("has no entry"), std::string::npos);
 }
 
 TEST_F(Audit, AnAttemptThatWasBegunAndDeletedIsNoticed) {
   { AttemptStore(*std::make_unique<Database>(file_)).begin_attempt(sample_start()); }
   outside("DROP TRIGGER attempt_no_delete; DELETE FROM attempt WHERE status = 'running'");
+  EXPECT_NE(problems().find(", is missing"), std::string::npos) << problems();
   EXPECT_NE(problems().find("the newest attempts were deleted"), std::string::npos) << problems();
 }
 

@@ -83,6 +83,93 @@ TEST_F(AttemptRecovery, AWholeRecordingInItsPlaceEarnsNothing) {
   EXPECT_NE(AttemptStore(again).recording_problem(result.uuid, read_recording(place).attempt, ""), "");
 }
 
+TEST_F(AttemptRecovery, AnotherAttemptsRecordingInItsPlaceIsNotTakenForIt) {
+  std::string other;
+  std::filesystem::path kept;
+  {
+    Database database(folder_ / "t.db");
+    AttemptStore store(database);
+    const AttemptId id = store.begin_attempt(sample_start("T-1"));
+    RecordingWriter(kept = id.recording, "session", 1000).close({0, AttemptStatus::kCompleted, 0, 0, ""});
+    AttemptResult result = sample_result();
+    result.recording_sha256 = digest::of_file(kept);
+    store.finish_attempt(id, result);
+    other = id.uuid;
+  }
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  std::filesystem::path place;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "t.recordings"))
+    if (entry.path() != kept) place = entry.path();
+  std::filesystem::copy_file(kept, place, std::filesystem::copy_options::overwrite_existing);
+  Database database(folder_ / "t.db");
+  const AttemptResult died = AttemptStore(database).load("latest");
+  EXPECT_NE(died.integrity.find("in the place of its recording lies that of attempt " + other), std::string::npos);
+  EXPECT_EQ(died.recording_path, "");
+  EXPECT_EQ(died.recording_sha256, "");
+  ASSERT_EQ(AttemptStore(database).check_recordings().size(), 1u);
+  EXPECT_NE(AttemptStore(database).check_recordings()[0].find("kept without one"), std::string::npos);
+}
+
+/// A row that nobody's attempt began is not ended in that person's name without a word.
+TEST_F(AttemptRecovery, ARowThatWasPutInIsTold) {
+  {
+    Database database(folder_ / "t.db");
+    store_attempt(database, sample_start("T-1"), sample_result());
+  }
+  ASSERT_EQ(run_outside(folder_ / "t.db",
+                        "CREATE TEMP TABLE forged AS SELECT * FROM attempt; UPDATE forged SET id = 2, status ="
+                        " 'running', uuid = '0190aaaa-0000-7000-8000-000000000001', finished_utc = NULL, chain_position"
+                        " = NULL, prev_hash = NULL, row_hash = NULL, owner_pid = 1, owner_boot = 'none',"
+                        " recording_path = '', recording_sha256 = ''; INSERT INTO attempt SELECT * FROM forged"),
+            "");
+  Database database(folder_ / "t.db");
+  ASSERT_EQ(database.recovered().size(), 1u);
+  const AttemptResult result = AttemptStore(database).load("latest");
+  EXPECT_EQ(result.grade.status, AttemptStatus::kAborted);
+  EXPECT_EQ(result.integrity, "no entry says that it began: its row was put in");
+  EXPECT_EQ(problems_of(database), "audit trail: attempt " + result.uuid + ": " + result.integrity + "\n");
+}
+
+TEST_F(AttemptRecovery, ARowThatWasChangedWhileItRanIsTold) {
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE attempt SET hand = 'somebody'"), "");
+  Database database(folder_ / "t.db");
+  EXPECT_EQ(AttemptStore(database).load("latest").integrity, "its row is not as it began: it was changed");
+  EXPECT_NE(problems_of(database).find(": its row is not as it began"), std::string::npos) << problems_of(database);
+}
+
+/// Else nobody could open the database any more.
+TEST_F(AttemptRecovery, RowsPutInForARunningAttemptGo) {
+  const auto put_in = [&](std::int64_t attempt) {
+    return run_outside(
+        folder_ / "t.db",
+        "INSERT INTO score (attempt_id, revision, ruleset_sha256, value, passed, grade) SELECT id, 0,"
+        " ruleset_sha256, 100, 1, 'expert' FROM attempt WHERE id = " +
+            std::to_string(attempt) +
+            "; INSERT INTO metric (score_id, position, name, value, unit) SELECT max(id), 0, 'time', 1, 's' FROM "
+            "score; INSERT INTO device_warning VALUES (" +
+            std::to_string(attempt) + ", 0, 'x', 1, 1)");
+  };
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  ASSERT_EQ(put_in(1), "");
+  Database database(folder_ / "t.db");
+  const AttemptResult died = AttemptStore(database).load("latest");
+  EXPECT_FALSE(died.grade.score);
+  EXPECT_TRUE(died.grade.metrics.empty());
+  EXPECT_EQ(died.integrity,
+            "its program ended before the attempt was stored; rows that were put in for it while it ran were removed");
+  const AttemptId id = AttemptStore(database).begin_attempt(sample_start());
+  ASSERT_EQ(put_in(id.row), "");
+  AttemptStore(database).finish_attempt(id, sample_result(61));
+  const AttemptResult ended = AttemptStore(database).load(id.row);
+  EXPECT_EQ(*ended.grade.score, 61);
+  EXPECT_EQ(ended.integrity, "rows that were put in for it while it ran were removed");
+  EXPECT_EQ(problems_of(database), "");
+}
+
 TEST_F(AttemptRecovery, ALivingSecondProgramIsNotDisturbed) {
   Child child(folder_ / "t.db");
   {

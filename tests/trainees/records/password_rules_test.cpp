@@ -14,7 +14,7 @@ std::string refusal(const std::string& password, Role role, const std::string& l
 
 TEST(PasswordRules, RefusePinsThatAreTriedFirst) {
   for (const char* pin : {"000000", "111111", "121212", "112112", "123123", "123456", "654321", "012345", "345678",
-                          "901234", "123321", "456654", "112233", "147258"})
+                          "901234", "123321", "456654", "112233", "147258", "369258"})
     EXPECT_NE(refusal(pin, Role::kTrainee), "") << pin;
   for (const char* pin : {"1234", "0000", "12345", "1234567"})
     EXPECT_NE(refusal(pin, Role::kTrainee).find("a PIN of 6 digits"), std::string::npos) << pin;
@@ -40,6 +40,9 @@ TEST(PasswordRules, RefusePasswordsThatAreTriedFirst) {
     EXPECT_NE(refusal(password, Role::kInstructor).find("guessed first"), std::string::npos) << password;
   EXPECT_NE(refusal("ines.brandt", Role::kInstructor, "Ines.Brandt").find("is the login"), std::string::npos);
   EXPECT_NE(refusal("ines.brandt1", Role::kInstructor, "ines.brandt").find("is the login"), std::string::npos);
+  for (const char* turned : {"brandt-ines", "brandtines1", "BrandtInes!"})
+    EXPECT_NE(refusal(turned, Role::kInstructor, "ines.brandt").find("is the login"), std::string::npos) << turned;
+  EXPECT_EQ(refusal("ines will kaffee", Role::kInstructor, "ines.brandt"), "");
   EXPECT_NE(refusal("tdnarb.seni", Role::kInstructor, "ines.brandt").find("is the login"), std::string::npos);
   EXPECT_NE(refusal("too short", Role::kInstructor).find("at least 10"), std::string::npos);
 }

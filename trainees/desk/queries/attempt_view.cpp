@@ -38,8 +38,8 @@ void add_trace(AttemptView& view, Desk& desk) {
     view.no_trace = "This desk cannot read recordings.";
   } else {
     try {
-      if (recording_exchanged(view.result))
-        view.no_trace = "Another file lies in the place of its recording: it says nothing of this attempt.";
+      if (const std::string foreign = desk.sources.foreign_recording(desk.database, view.result); !foreign.empty())
+        view.no_trace = sentence(foreign + ": it says nothing of this attempt");
       else
         view.trace = desk.sources.trace(view.result.recording_path);
       if (view.result.cut_off && desk.sources.recorded_outcome)

@@ -5,6 +5,7 @@
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/routes/page_routes.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/record_backup.h"
@@ -72,6 +73,7 @@ Response set_disabled(const Request& request, Desk& desk, bool disabled) {
 RecordView record_of(Desk& desk) {
   RecordView view = record_view(desk.database, desk.sources.program);
   if (desk.sources.recordings_checked) view.recordings = desk.sources.recordings_checked();
+  if (const std::string lost = lost_key(desk.database.connection()); !lost.empty()) view.remarks.push_back(lost);
   return view;
 }
 
@@ -85,7 +87,7 @@ Response check(const Request& request, Desk& desk) {
   view.problems = desk.database.check();
   for (std::string& problem : AttemptStore(desk.database).check_recordings())
     view.problems->push_back(std::move(problem));
-  view.remarks = audit_remarks(desk.database.connection());
+  for (std::string& remark : audit_remarks(desk.database.connection())) view.remarks.push_back(std::move(remark));
   return html(record_page(view, frame_of(request, desk)));
 }
 

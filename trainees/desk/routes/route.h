@@ -22,6 +22,7 @@
 #include "trainees/markup/board_plots.h"
 #include "trainees/markup/plots.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/attempt_store.h"
 #include "trainees/store/database.h"
 
 namespace trocar::review {
@@ -117,6 +118,10 @@ struct DeskSources {
   std::function<void()> check_recordings = {};
   /// What the recording of an attempt that was cut off is and gives, a sentence for who decides on it.
   std::function<std::string(Database& database, const AttemptResult& attempt)> recorded_outcome = {};
+  /// Why what lies in the place of its recording is not to be shown as its own, "" when it may be. Here: the file's
+  /// digest; a desk that reads recordings looks into them. @throws EnvironmentError: the file cannot be read.
+  std::function<std::string(Database& database, const AttemptResult& attempt)> foreign_recording =
+      [](Database&, const AttemptResult& attempt) { return recording_exchanged(attempt) ? kAnotherFile : ""; };
   /// Removes the invented cohort that is served, files and all, and lets the desk end. @throws InputError: it holds no
   /// such cohort.
   std::function<std::string()> remove_demo = {};

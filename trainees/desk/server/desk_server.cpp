@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <thread>
 
 #include "haptics/input_error.h"
@@ -20,6 +21,13 @@ namespace trocar::review {
 namespace {
 
 constexpr int kServed = 32;  ///< at once, of those whose requests are whole
+/// A class that signs in together waits its turn, besides the others. More than that many are told to try again.
+constexpr int kSignedInAtOnce = 2, kMostSigningIn = 32;
+
+bool signs_in(const Received& received) {
+  const auto* request = std::get_if<ReceivedRequest>(&received);
+  return request != nullptr && request->head.method == "POST" && request->head.path == "/sign-in";
+}
 constexpr int kBacklog = 256;
 
 std::vector<std::string> machine_addresses() {
@@ -69,6 +77,8 @@ struct DeskServer::Impl : httplib::Server {
   std::unique_ptr<DeskGate> gate;
   std::thread listener;
   std::unique_ptr<httplib::ThreadPool> servers;  ///< pages are made and answers composed: they never wait for a visitor
+  std::unique_ptr<httplib::ThreadPool> doors;    ///< the same for those who sign in
+  std::atomic<int> signing_in{0};                ///< served or waiting for `doors`
   std::unique_ptr<WaitingRoom> room;
   int bound_port = 0;
   bool listened = false;  ///< the library closes the port itself, once it has listened
@@ -134,19 +144,25 @@ void DeskServer::Impl::bind() {
 
 void DeskServer::Impl::open() {
   servers = std::make_unique<httplib::ThreadPool>(kServed);
+  doors = std::make_unique<httplib::ThreadPool>(kSignedInAtOnce);
   RoomLimits limits;
   limits.request = options.limits;
   room = std::make_unique<WaitingRoom>(limits, [this](std::shared_ptr<Connection> connection, Received received) {
-    servers->enqueue([this, connection = std::move(connection),
-                      request = std::make_shared<Received>(std::move(received))]() mutable {
-      serve(connection, std::move(*request));
-    });
+    const bool door = signs_in(received) && signing_in < kMostSigningIn;
+    if (door) ++signing_in;
+    (door ? doors : servers)
+        ->enqueue([this, door, connection = std::move(connection),
+                   request = std::make_shared<Received>(std::move(received))]() mutable {
+          serve(connection, std::move(*request));
+          if (door) --signing_in;
+        });
   });
 }
 
 /// Those who serve first: they still give answers to the room.
 void DeskServer::Impl::close() {
   servers->shutdown();
+  doors->shutdown();
   room.reset();
 }
 

@@ -153,7 +153,7 @@ TEST_F(StoreCommands, DbAnchorRenewsALostAnchor) {
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 2);
   out_.str("");
   EXPECT_EQ(db_anchor({file_, ""}, out_, err_), 0);
-  EXPECT_EQ(out_.str().substr(0, 15), "anchored at 10:");
+  EXPECT_EQ(out_.str().substr(0, 15), "anchored at 13:");
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 0) << out_.str();
 }
 
@@ -169,14 +169,14 @@ TEST_F(StoreCommands, ReadingCommandsDoNotMakeADatabase) {
 TEST_F(StoreCommands, DbCheckIsZeroWhenSoundAndTwoWhenNot) {
   fill();
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 0);
-  EXPECT_NE(out_.str().find("sound (schema 3, 3 attempts, head 9:"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("sound (schema 4, 3 attempts, head 12:"), std::string::npos) << out_.str();
   ASSERT_EQ(run_outside(file_, "DROP TRIGGER score_no_update; UPDATE score SET value = 100 WHERE attempt_id = 1"), "");
   out_.str("");
   EXPECT_EQ(db_check({file_, "", true}, out_, err_), 2);
   const Json json = Json::parse(out_.str());
   EXPECT_EQ(json["sound"], false);
   EXPECT_EQ(json["problems"].size(), 2u) << "the score, and the trigger";
-  EXPECT_EQ(json["head"].get<std::string>().substr(0, 2), "9:");
+  EXPECT_EQ(json["head"].get<std::string>().substr(0, 3), "12:");
 }
 
 TEST_F(StoreCommands, DbCheckFindsAChangedRecording) {
@@ -204,7 +204,7 @@ TEST_F(StoreCommands, DbBackupNamesItsCopyAndMigrateSaysWhereItStands) {
   EXPECT_THROW(db_backup({file_, folder_ / "named"}, out_, err_), InputError);
   out_.str("");
   EXPECT_EQ(db_migrate({file_, ""}, out_, err_), 0);
-  EXPECT_EQ(out_.str(), "schema 3, up to date\n");
+  EXPECT_EQ(out_.str(), "schema 4, up to date\n");
 }
 
 TEST_F(StoreCommands, OpeningReportsAttemptsThatWereCutOff) {

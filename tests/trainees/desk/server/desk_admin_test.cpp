@@ -6,6 +6,7 @@
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
@@ -136,6 +137,9 @@ TEST_F(DeskAdmin, TheRecordIsCountedCheckedAndCopied) {
   const std::string broken = ask("POST", "/record/check", here).response.body;
   EXPECT_EQ(broken.find("Sound: file"), std::string::npos);
   EXPECT_NE(broken.find("Change nothing, keep the backups"), std::string::npos);
+  EXPECT_EQ(broken.find("is missing: what is written now"), std::string::npos);
+  fs::remove(key_path(file_));
+  EXPECT_NE(page("/record", here).find("desk.db.key is missing: what is written now is not signed"), std::string::npos);
 }
 
 TEST_F(DeskAdmin, ACheckThatFindsThousandsOfProblemsStaysReadable) {

@@ -211,6 +211,16 @@ TEST_F(DeskServerTest, ManyAtOnceAllGetTheirOwn) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST_F(DeskServerTest, AClassSignsInTogether) {
+  add_accounts();
+  serve(options());
+  std::atomic<int> in{0};
+  std::vector<std::thread> browsers;
+  for (int b = 0; b < 12; ++b) browsers.emplace_back([&] { in += signed_in_there("anna").cookie.empty() ? 0 : 1; });
+  for (std::thread& browser : browsers) browser.join();
+  EXPECT_EQ(in, 12) << "each waits its turn";
+}
+
 TEST_F(DeskServerTest, PageThreadsHandBackErrorsAndEnd) {
   int opened = 0;
   PageWorkers workers(
