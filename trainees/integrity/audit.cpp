@@ -1,7 +1,6 @@
 #include "trainees/integrity/audit.h"
 
 #include <sqlite3.h>
-#include <nlohmann/json.hpp>
 
 #include "haptics/digest/digest.h"
 #include "trainees/integrity/station_key.h"
@@ -98,7 +97,7 @@ void check_begun(sqlite3* connection, std::vector<std::string>& problems) {
 }
 
 std::string begun_digest(sqlite3* connection, const std::string& uuid) {
-  return digest::of_bytes(identity_of(connection, uuid, "").dump());
+  return digest::of_bytes(identity_of(connection, uuid, ""));
 }
 
 std::string field_at(sqlite3* connection, const char* query, std::int64_t position) {

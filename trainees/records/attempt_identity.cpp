@@ -65,15 +65,16 @@ std::string utc_now() {
   return text;
 }
 
-nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
+std::string identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
   static const std::string kQuery = "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
                                     ", exercise_id, ruleset_sha256, level, seed, board, hand FROM attempt a"
                                     " JOIN trainee t ON t.id = a.trainee_id WHERE a.uuid = ?";
   sql::Statement row(connection, kQuery);
   if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
-  return {{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
-          {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
-          {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
+  const nlohmann::ordered_json said{{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
+                                    {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
+                                    {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
+  return said.dump();
 }
 
 }  // namespace trocar

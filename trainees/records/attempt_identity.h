@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 struct sqlite3;
 
 namespace trocar {
@@ -20,8 +18,8 @@ std::string make_uuid_after(const std::string& before);
 /// "2026-03-01T09:30:00.123Z"
 std::string utc_now();
 
-/// What an attempt began with and what its recording says of it: attempt, trainee (where it began), exercise, ruleset,
-/// level, seed, board, hand, and the key given. @throws InputError: no such attempt.
-nlohmann::ordered_json identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key);
+/// What an attempt began with and what its recording says of it, as JSON: attempt, trainee (where it began), exercise,
+/// ruleset, level, seed, board, hand, and the key given. @throws InputError: no such attempt.
+std::string identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key);
 
 }  // namespace trocar

@@ -237,7 +237,7 @@ AttemptId AttemptStore::begin_attempt(const AttemptStart& start) {
   id.row = row.integer(0);
   if (!database_->in_memory()) {  // what vanishes with the program binds nothing, and equal runs give equal files
     id.key = station_key(database_->file());
-    id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump();
+    id.identity = identity_of(connection, id.uuid, id.key ? id.key->public_key() : "");
     audit_begun(connection, id.uuid);
   }
   transaction.commit();
@@ -262,8 +262,7 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
       throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
     }
   }
-  if (!id.identity.empty() &&
-      identity_of(connection, id.uuid, id.key ? id.key->public_key() : "").dump() != id.identity)
+  if (!id.identity.empty() && identity_of(connection, id.uuid, id.key ? id.key->public_key() : "") != id.identity)
     throw InputError("attempt " + id.uuid + ": its row was changed while it ran; it is not graded");
   write_result(connection, id.row, result, stored_recording_path(database_->file(), recording), finished_utc);
   transaction.commit();
@@ -346,7 +345,7 @@ std::string AttemptStore::recording_problem(const std::string& attempt_uuid, con
   const bool of_another_station = attempt.integer(1) != 0;  // whose keys stand in its own trail
   const auto said = nlohmann::ordered_json::parse(identity, nullptr, false);
   if (!said.is_object()) return "does not say whose it is";
-  const nlohmann::ordered_json wanted = identity_of(connection, attempt_uuid, said.value("key", ""));
+  const auto wanted = nlohmann::ordered_json::parse(identity_of(connection, attempt_uuid, said.value("key", "")));
   for (const auto& [name, value] : wanted.items())
     if (said.value(name, nlohmann::ordered_json()) != value)
       return "is of another attempt: " + name + " " + said.value(name, nlohmann::ordered_json()).dump() +
