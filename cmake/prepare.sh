@@ -42,6 +42,17 @@ build() {
   (( $# > 0 )) && targets=(--target "$@")
   say "Configuring (preset release)"
   cmake --preset release
-  say "Building ${*:-everything} with $(nproc) jobs"
-  cmake --build --preset release --parallel "$(nproc)" "${targets[@]}"
+  local jobs
+  jobs=$(build_jobs)
+  say "Building ${*:-everything} with $jobs jobs"
+  cmake --build --preset release --parallel "$jobs" "${targets[@]}"
+}
+
+# One a core, and no more than the memory holds: the largest joined source takes 2.2 GB.
+build_jobs() {
+  local cores gigabytes
+  cores=$(nproc)
+  gigabytes=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
+  local fits=$(( gigabytes * 10 / 24 ))
+  echo $(( fits < 1 ? 1 : fits < cores ? fits : cores ))
 }

@@ -9,8 +9,8 @@
 namespace trocar {
 namespace {
 
-constexpr double kCell_m = 0.006;  // triangles beside a lip are no longer than that
-constexpr float kMilli = 1000;     // mm of a metre
+constexpr double kCell_m = 0.006;     // triangles beside a lip are no longer than that
+constexpr float kMillimetres = 1000;  // mm of a metre
 
 using LipEdge = std::pair<Vec3, Vec3>;
 
@@ -104,7 +104,7 @@ std::vector<float> cut_places(const TriangleSurface& opened, const std::vector<b
   for (std::size_t v = 0; v < out.size(); ++v) {
     const double distance = lips.distance(opened.vertices[v]);
     // The bottom of a deep cut may have no lip in reach.
-    const float mm = kMilli * static_cast<float>(std::isfinite(distance) ? distance : 2 * kCell_m);
+    const float mm = kMillimetres * static_cast<float>(std::isfinite(distance) ? distance : 2 * kCell_m);
     if (wall[v])
       out[v] = kLipOfWall + mm;
     else if (std::isfinite(distance))

@@ -11,12 +11,12 @@
 namespace trocar {
 namespace {
 
-constexpr double kPanelWidth = 500, kMargin = 24;
+constexpr double kPanelWidth = 500, kStartMargin = 24;
 constexpr double kFirstWait_s = 1.0;  // for the scene: the first frame is lit if it can be
 
 /// Where the panel stands: left of the scene, or over it where there is no room for both.
 Area panel_area(double scale, double width, double height) {
-  const double unit = ui_unit(scale, width, height), margin = std::min(unit * kMargin, 0.02 * width);
+  const double unit = ui_unit(scale, width, height), margin = std::min(unit * kStartMargin, 0.02 * width);
   const double wide = std::min(unit * kPanelWidth, width - 2 * margin);
   const bool beside = width - margin - wide >= 0.4 * width;
   return {margin, margin, beside ? wide : width - 2 * margin, height - 2 * margin};
@@ -195,8 +195,8 @@ void StartScreen::caption(Ui& ui, const PracticeModel& model) const {
   const Translator& w = model.words();
   const std::string said = film_ && film_->ready() ? w("Replay of the expert: {0}", {w.name(film_->scene().organ.name)})
                                                    : w("Still scene, synthetic: no patient.");
-  const double room = free - ui.px(2 * kMargin), x = panel.x + panel.width + ui.px(kMargin), line = ui.line_height(),
-               pad = ui.px(10);
+  const double room = free - ui.px(2 * kStartMargin), x = panel.x + panel.width + ui.px(kStartMargin),
+               line = ui.line_height(), pad = ui.px(10);
   const std::vector<std::string> lines = ui.lines(said, room);
   const double high = line * static_cast<double>(lines.size());
   double y = ui.height() - high - ui.px(22), wide = 0;

@@ -17,12 +17,15 @@ constexpr double kOverNeedle = 0.020;                     // m along the shaft a
 constexpr double kOverDot = 0.0025;                       // m over the tissue, at which the needle is looked at
 constexpr double kNeedleLate = 0.16, kNeedleLook = 0.05;  // s: the eyes are that late; looking, before speed_factor
 constexpr double kQuickestNeedle = 0.15;                  // s of a reach
-constexpr double kPressOn = 0.0025;     // m by which tissue gives way before the point goes in, as a person expects
-constexpr double kNeedleClear = 0.010;  // m to which the needle is lifted
+constexpr double kPressOn = 0.0035;  // m by which tissue gives way before the point goes in, as a person expects
+// The point has gone in where it is seen lower over its dot than that, which goes down with the tissue (m): looked at
+// for so long, told so late (s). Then it is pressed on for a moment (s, before speed_factor).
+constexpr double kSeenIn = 0.0006, kLooksAtPoint = 0.12, kInLate = 0.33, kPressFor = 0.38;
+constexpr double kNeedleClear = 0.010;                     // m to which the needle is lifted
 constexpr double kShovedIn = 0.0007, kShovedOut = 0.0013;  // m
 constexpr double kKeepGain = 2, kKeepRest = 0.0003;        // 1/s by which it is kept over the dot; m that are not seen
 constexpr double kSteerGain = 2, kSteersFrom = 0.0015, kMostSteered = 0.004;  // 1/s; m, of settle_share; m
-constexpr double kPressTime = 0.8;                                            // s, before speed_factor
+constexpr double kPressTime = 1.0;                                            // s, before speed_factor
 constexpr double kRollSpeed = 45 * kDegree;                                   // rad/s, before speed_factor
 constexpr double kMostHeldBack = 0.4;     // rad by which friction keeps the needle behind the fingers
 constexpr double kQuickestRoll = 4;       // rad/s of a turn in the air
@@ -165,14 +168,20 @@ void NeedleJob::see(const Percept& percept, const HandIntent& intent, HandRandom
   const Vec3 way = -(kOverDot + push) * percept.target_normal_T;
   plan_ = ReachPlan(intent.X_TI.p, intent.X_TI.p + way, {0, Vec3::Zero(), 0, kPressTime * skill_.speed_factor});
   aside_ = Vec3::Zero();
+  over_m_ = kOverDot;
+  in_for_s_ = 0;
   enter(Step::kPress);
 }
 
-/// Presses it on, and keeps it over the dot, which goes along with the tissue, as far as that is seen.
+/// Presses it on until it is seen to have gone in, and keeps it over the dot, which goes along with the tissue, as far
+/// as that is seen.
 void NeedleJob::press(const Percept& percept, double dt_s, HandIntent& intent) {
   const Vec3 off = aim_T(percept, percept.target_T, kShovedIn) - percept.object.X_TO * point_N(percept);
   const Vec3& normal = percept.target_normal_T;
   const Vec3 beside = off - off.dot(normal) * normal;
+  const double over = (percept.object.X_TO * point_N(percept) - percept.target_T).dot(normal);
+  over_m_ += (over - over_m_) * std::min(1.0, dt_s / kLooksAtPoint);
+  in_for_s_ = over_m_ < kSeenIn ? in_for_s_ + dt_s : 0;
   if (const double size = beside.norm(); size > kKeepRest)
     aside_ += beside * (kKeepGain / skill_.speed_factor * (1 - kKeepRest / size) * dt_s);
   intent.X_TI.p = plan_.at(in_step_s_) + aside_;
@@ -267,7 +276,8 @@ void NeedleJob::update(const Percept& percept, const HandSenses&, double dt_s, H
       return see(percept, intent, random);
     case Step::kPress:
       press(percept, dt_s, intent);
-      if (in_step_s_ > plan_.duration_s()) begin_roll(Step::kRoll, percept, by_rad_, intent, random);
+      if (in_step_s_ > plan_.duration_s() || in_for_s_ > std::max(0.0, kPressFor * skill_.speed_factor - kInLate))
+        begin_roll(Step::kRoll, percept, by_rad_, intent, random);
       return;
     case Step::kRoll:
       roll(percept, intent);

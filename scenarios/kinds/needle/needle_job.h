@@ -1,6 +1,6 @@
 // How a simulated person drives a needle: reach along the shaft with open jaws, look, close on the wire; bring the
-// point over the dot, look, press it on, roll the needle about its own circle until enough of the point stands out; let
-// go, take it there, roll on and lift. What came to nothing is rolled back and begun anew.
+// point over the dot, look, press it on until it is seen to go in, roll the needle about its own circle until enough of
+// the point stands out; let go, take it there, roll on and lift. What came to nothing is rolled back and begun anew.
 //
 // A half circle is taken for granted. Knows nothing but the Percept. Frame T, m, rad. Thread: the hand task's, once a
 // loop period; does not allocate.
@@ -72,6 +72,8 @@ class NeedleJob : public HandWork {
   Vec3 shaft_T_ = Vec3::UnitZ();    ///< and along which,
   Pose from_;                       ///< from where,
   Vec3 hinge_T_ = Vec3::UnitX();    ///< as it was seen then,
+  double over_m_ = 0;               ///< as the point is seen over its dot while it is pressed on,
+  double in_for_s_ = 0;             ///< and since when it is seen to have gone in
   double by_rad_ = 0, roll_s_ = 1;  ///< by how much, in how long
   double rolled_rad_ = 0;           ///< since the point was pressed on
   int corrections_ = 0, in_vain_ = 0;

@@ -102,14 +102,14 @@ void widen(ScalarField& thin) {
 }
 
 /// Index of slice `n` along `axis`, the last slice of the image at a cut side: what lies beyond repeats it.
-struct CutSide {
+struct ImageSide {
   std::size_t axis;
   int last;  ///< slice inside
   int step;  ///< from there outwards
 };
 
-std::vector<CutSide> cut_sides(const LabelMask& mask, const std::array<int, 3>& size, const Sampling& sampling) {
-  std::vector<CutSide> sides;
+std::vector<ImageSide> cut_sides(const LabelMask& mask, const std::array<int, 3>& size, const Sampling& sampling) {
+  std::vector<ImageSide> sides;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = kSmoothingMargin - 0.5, high = mask.size[axis] - kSmoothingMargin - 0.5;  // the image's border
     if (mask.cut[axis][0]) {
@@ -128,7 +128,7 @@ std::vector<CutSide> cut_sides(const LabelMask& mask, const std::array<int, 3>& 
 
 /// Calls set(outside value, value of the last slice inside) for every sample beyond a cut side.
 template <typename Set>
-void beyond(ScalarField& field, const CutSide& side, Set set) {
+void beyond(ScalarField& field, const ImageSide& side, Set set) {
   std::array<int, 3> index{};
   std::size_t sample = 0;
   for (index[2] = 0; index[2] < field.size[2]; ++index[2])
@@ -188,7 +188,7 @@ std::size_t count_thin_voxels(const LabelMask& mask) {
 
 ScalarField smooth_field(const LabelMask& mask, const SmoothingWidths& widths, const Sampling& sampling) {
   ScalarField voxels = sharp_field(mask);
-  for (const CutSide& side : cut_sides(mask, mask.size, {1, 1, 1}))
+  for (const ImageSide& side : cut_sides(mask, mask.size, {1, 1, 1}))
     beyond(voxels, side, [](float& outside, float last) { outside = last; });
   ScalarField broad = resampled(voxels, sampling);
   std::array<double, 3> per_voxel{};
@@ -212,7 +212,7 @@ ScalarField smooth_field(const LabelMask& mask, const SmoothingWidths& widths, c
 ScalarField signed_field(const ScalarField& field, const LabelMask& mask, const Sampling& sampling, double level) {
   ScalarField result = field;
   for (float& value : result.values) value -= static_cast<float>(level);
-  for (const CutSide& side : cut_sides(mask, field.size, sampling))
+  for (const ImageSide& side : cut_sides(mask, field.size, sampling))
     beyond(result, side, [](float& outside, float last) { outside = -std::abs(last); });
   return result;
 }

@@ -13,7 +13,7 @@ namespace {
 std::string of_words(int n, int all) { return std::to_string(n) + " of " + std::to_string(all); }
 
 /// "3 of 15; asks 65 % or more", "met by all", "" of what is no gate.
-std::string gate_cell(const LostPart& lost, int graded) {
+std::string gate_cell(const LostSubscore& lost, int graded) {
   if (!lost.part.gate) return "<td></td>";
   if (lost.gate_failed == 0) return "<td>" + shape("pass") + "met by all</td>";
   const double asked = lost.part.zero_at + lost.gate_below * (lost.part.full_at - lost.part.zero_at);
@@ -44,7 +44,7 @@ std::string loss_table(const LossLine& line) {
   const Losses& l = line.losses;
   std::string rows;
   const double most = l.parts.empty() ? 0 : l.parts.front().points_lost;
-  for (const LostPart& lost : l.parts)
+  for (const LostSubscore& lost : l.parts)
     rows += "<tr><th scope=\"row\">" + escape_html(words_of(lost.part.name)) +
             (lost.part.gate ? " <span class=\"tag\">safety gate</span>" : "") + "</th>" +
             number_cell(fixed_text(lost.points_lost, 1)) + bar(lost.points_lost, most) +

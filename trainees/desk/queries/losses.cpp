@@ -12,7 +12,7 @@ namespace {
 
 /// One part over the attempts.
 struct PartSum {
-  LostPart lost = {};
+  LostSubscore lost = {};
   double values = 0;
   int graded = 0;
   std::vector<double> raws = {};
@@ -71,14 +71,14 @@ class LossPass {
 
   static Losses finished(LossDraft draft) {
     for (auto& [kind, sum] : draft.parts) {
-      LostPart& lost = sum.lost;
+      LostSubscore& lost = sum.lost;
       lost.part.value = sum.values / std::max(1, sum.graded);
       lost.points_lost = 100 * lost.part.weight * (1 - lost.part.value);
       if (const auto middle = quartiles(sum.raws)) lost.part.raw = middle->median;
       draft.losses.parts.push_back(lost);
     }
     std::stable_sort(draft.losses.parts.begin(), draft.losses.parts.end(),
-                     [](const LostPart& a, const LostPart& b) { return a.points_lost > b.points_lost; });
+                     [](const LostSubscore& a, const LostSubscore& b) { return a.points_lost > b.points_lost; });
     for (const auto& [type, count] : draft.critical) draft.losses.critical.push_back({type, true, count});
     std::stable_sort(draft.losses.critical.begin(), draft.losses.critical.end(),
                      [](const HarmfulEvents& a, const HarmfulEvents& b) { return a.count > b.count; });

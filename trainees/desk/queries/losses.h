@@ -12,7 +12,7 @@
 
 namespace trocar {
 
-struct LostPart {
+struct LostSubscore {
   Subscore part = {};      ///< its anchors; raw: median over the attempts that have one; value: mean
   double points_lost = 0;  ///< mean over the graded attempts
   int gate_failed = 0;     ///< attempts in which it was a safety gate that was not met
@@ -23,7 +23,7 @@ struct Losses {
   CurveKey key = {};
   int people = 0, attempts = 0;                ///< looked at
   int graded = 0, passed = 0, unfinished = 0;  ///< of them; passed by the score
-  std::vector<LostPart> parts = {};            ///< most points lost first
+  std::vector<LostSubscore> parts = {};        ///< most points lost first
   std::vector<HarmfulEvents> critical = {};    ///< most first
 };
 
