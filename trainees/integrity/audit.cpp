@@ -2,6 +2,10 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "haptics/digest/digest.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
@@ -39,24 +43,32 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems) {
   }
 }
 
-/// Each link holds all before it, so the last of a key's entries proves them all; none in between is without.
+/// Every entry by the key that the trail named last before it. The last one's signature holds all before it as well,
+/// but says nothing of who wrote them: the program goes on from what it finds.
 void check_signatures(sqlite3* connection, std::vector<std::string>& problems) {
   const std::vector<AnnouncedKey> keys = announced_keys(connection);
-  const std::int64_t head = audit_head(connection).position;
   if (keys.empty() && *sqlite3_db_filename(connection, "main") != '\0')
     problems.push_back(
         "no entry names the station's key, as the first of every record on disk does: it was taken away");
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const std::int64_t last = i + 1 < keys.size() ? keys[i + 1].position - 1 : head;
-    sql::Statement bare(connection,
-                        "SELECT position FROM audit WHERE position BETWEEN ? AND ? AND signature = '' LIMIT 1");
-    if (bare.bind(keys[i].position).bind(last).step())
-      problems.push_back("entry " + std::to_string(bare.integer(0)) + " is not signed with the station's key");
-    sql::Statement row(connection, "SELECT row_hash, signature FROM audit WHERE position = ?");
-    if (row.bind(last).step() && !row.text(1).empty() &&
-        !signature_holds(keys[i].public_key, head_text(row.text(0)), row.text(1)))
-      problems.push_back("entry " + std::to_string(last) + " was not signed with the station's key");
+  auto next = keys.begin();
+  std::string holder;
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> bad;  // words: the first such entry, how many follow
+  const auto tell = [&bad](const std::string& words, std::int64_t position) {
+    const auto [at, first] = bad.try_emplace(words, position, 0);
+    if (!first) ++at->second.second;
+  };
+  sql::Statement rows(connection, "SELECT position, row_hash, signature FROM audit ORDER BY position");
+  while (rows.step()) {
+    for (; next != keys.end() && next->position <= rows.integer(0); ++next) holder = next->public_key;
+    if (holder.empty()) continue;  // of before schema 2
+    if (rows.text(2).empty())
+      tell("is not signed with the station's key", rows.integer(0));
+    else if (!signature_holds(holder, head_text(rows.text(1)), rows.text(2)))
+      tell("was not signed with the station's key", rows.integer(0));
   }
+  for (const auto& [words, entries] : bad)
+    problems.push_back("entry " + std::to_string(entries.first) + " " + words +
+                       (entries.second > 0 ? ", nor " + std::to_string(entries.second) + " of those after it" : ""));
   const auto here = station_key(connection);
   if (here && !keys.empty() && here->public_key() != keys.back().public_key)
     problems.push_back("the key beside the database is not the one that the trail names last");
@@ -127,8 +139,10 @@ void audit_begun(sqlite3* connection, const std::string& uuid) {
 std::string begun_problem(sqlite3* connection, const std::string& uuid) {
   sql::Statement any(connection, "SELECT 1 FROM audit WHERE action = ? LIMIT 1");
   if (!any.bind(kActionBegun).step()) return "";
-  sql::Statement entry(connection, "SELECT detail FROM audit WHERE subject = ? AND action = ?");
+  sql::Statement entry(connection, "SELECT detail, position FROM audit WHERE subject = ? AND action = ?");
   if (!entry.bind(uuid).bind(kActionBegun).step()) return "no entry says that it began: its row was put in";
+  if (!entry_signed(connection, entry.integer(1)))
+    return "the entry of its beginning is not signed with the station's key";
   return entry.text(0) == begun_digest(connection, uuid) ? "" : "its row is not as it began: it was changed";
 }
 
@@ -136,6 +150,15 @@ AuditHead audit_head(sqlite3* connection) {
   sql::Statement last(connection, "SELECT position, row_hash FROM audit ORDER BY position DESC LIMIT 1");
   if (!last.step()) return {};
   return {last.integer(0), last.text(1)};
+}
+
+bool entry_signed(sqlite3* connection, std::int64_t position) {
+  const std::vector<AnnouncedKey> keys = announced_keys(connection);
+  if (keys.empty() || position < keys.front().position) return true;
+  sql::Statement row(connection, "SELECT row_hash, signature FROM audit WHERE position = ?");
+  return row.bind(position).step() && std::any_of(keys.begin(), keys.end(), [&row](const AnnouncedKey& key) {
+           return signature_holds(key.public_key, head_text(row.text(0)), row.text(1));
+         });
 }
 
 std::string audit_hash(sqlite3* connection, std::int64_t position) {

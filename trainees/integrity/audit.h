@@ -45,6 +45,9 @@ void audit_begun(sqlite3* connection, const std::string& uuid);
 /// began: an earlier program made no such entries.
 std::string begun_problem(sqlite3* connection, const std::string& uuid);
 
+/// Whether a key that the trail names has signed the entry, or it is older than the first of them.
+bool entry_signed(sqlite3* connection, std::int64_t position);
+
 /// What the station's key signs of an entry.
 std::string head_text(const std::string& row_hash);
 

@@ -222,7 +222,7 @@ std::optional<Account> AccountStore::verify(const std::string& login, const std:
   }
   const std::string given = password.substr(0, kLongestPassword + 1);  // what is longer is wrong, and takes no longer
   const bool right = crypto_pwhash_str_verify(hash.c_str(), given.data(), given.size()) == 0;
-  return right ? account : std::nullopt;
+  return right && account && account_holds(database_->connection(), account->uuid) ? account : std::nullopt;
 }
 
 std::optional<Account> AccountStore::find(const std::string& login) const {

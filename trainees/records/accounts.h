@@ -55,7 +55,8 @@ class AccountStore {
   void signed_out(const std::string& account);
   void held_back(const std::string& account);
 
-  /// The account when the password is right and it may sign in. Takes as long for a login that does not exist.
+  /// The account when the password is right, it may sign in and its row is the one that this program made: on record,
+  /// and signed (docs/data_store.md). Takes as long for a login that does not exist.
   std::optional<Account> verify(const std::string& login, const std::string& password) const;
   std::optional<Account> find(const std::string& login) const;
   /// The account of the trainee of that code; nothing: there is none.

@@ -8,6 +8,7 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/anchor_file.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::audit_test {
@@ -139,6 +140,25 @@ TEST_F(Audit, AChangedOrMissingEntryIsNoticed) {
   outside("DROP TRIGGER audit_no_delete; DELETE FROM audit WHERE position = 6");
   EXPECT_NE(problems().find("before entry 7 (attempt begun): entries are missing"), std::string::npos);
   EXPECT_NE(problems().find("has no entry"), std::string::npos);
+}
+
+/// Who may write the files runs a program of his own, with a key of his own, and puts the station's back.
+TEST_F(Audit, EntriesUnderAnotherKeyAreNoticedWhateverFollowsThem) {
+  const fs::path key = key_path(file_), kept = folder_ / "kept.key";
+  fs::rename(key, kept);
+  { Database other(folder_ / "other.db"); }
+  fs::copy_file(key_path(folder_ / "other.db"), key);
+  {
+    Database database(file_);
+    store_attempt(database, sample_start(), sample_result(99));
+  }
+  fs::remove(key);
+  fs::rename(kept, key);
+  {
+    Database database(file_);
+    store_attempt(database, sample_start(), sample_result());
+  }
+  EXPECT_EQ(problems(), "audit trail: entry 11 was not signed with the station's key, nor 1 of those after it\n");
 }
 
 TEST_F(Audit, AnAttemptThatWasBegunAndDeletedIsNoticed) {

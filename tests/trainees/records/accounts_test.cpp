@@ -3,6 +3,7 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -21,6 +22,8 @@ class Accounts : public testing::Test {
   Database database_{":memory:"};
   AccountStore store_{database_};
 };
+
+using AccountsOnDisk = TemporaryFolder;
 
 TEST_F(Accounts, TheRightPasswordSignsInAndNoOther) {
   const Account added = instructor();
@@ -137,6 +140,37 @@ TEST_F(Accounts, EveryChangeIsOnRecordWithWhoMadeIt) {
             0)
       << "the trail outlives the person: it names nobody";
   EXPECT_TRUE(database_.check().empty());
+}
+
+/// Who may write the file, but not read the key, makes himself no account.
+TEST_F(AccountsOnDisk, ARowThatSomebodyWroteIntoTheFileSignsNobodyIn) {
+  const std::filesystem::path file = folder_ / "t.db";
+  Database database(file);
+  AccountStore accounts(database);
+  accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  ASSERT_TRUE(accounts.verify("i.adler", kPassword));
+  EXPECT_EQ(run_outside(file,
+                        "INSERT INTO account (uuid, login, name, role, password, created_utc) SELECT"
+                        " '0190aaaa-0000-7000-8000-000000000001', 'mallory', name, 'administrator', password,"
+                        " created_utc FROM account"),
+            "");
+  EXPECT_FALSE(accounts.verify("mallory", kPassword));
+  EXPECT_EQ(run_without_triggers(file, "UPDATE account SET role = 'administrator' WHERE login = 'i.adler'"), "");
+  EXPECT_FALSE(accounts.verify("i.adler", kPassword)) << "nor is anybody made more than he was";
+}
+
+TEST_F(AccountsOnDisk, AnAccountMadeUnderAnotherKeySignsNobodyIn) {
+  const std::filesystem::path file = folder_ / "t.db", key = key_path(file), kept = folder_ / "kept.key";
+  Database database(file);
+  AccountStore accounts(database);
+  std::filesystem::rename(key, kept);
+  write_station_key(file, SigningKey::make());
+  accounts.add("mallory", "Mallory", Role::kAdministrator, "", kPassword, "");
+  accounts.add("i.adler", "Ida Adler", Role::kAdministrator, "", kPassword, "");
+  std::filesystem::rename(kept, key);
+  EXPECT_FALSE(accounts.verify("mallory", kPassword));
+  accounts.set_password("i.adler", kPassword, "");
+  EXPECT_TRUE(accounts.verify("i.adler", kPassword)) << "what the station's program writes anew holds";
 }
 
 TEST_F(Accounts, TheTableRefusesToMakeSomebodyElseOfAnAccount) {

@@ -36,12 +36,13 @@ class BatchOf : public TemporaryFolder {
 };
 
 TEST_F(BatchOf, IsAStretchOfTheTrail) {
-  const Batch first = read_batch(connection(), 0, 5);  // "database made", trainee, person, exercise, one attempt
-  EXPECT_EQ(first.to, 5);
+  const Batch first =
+      read_batch(connection(), 0, 6);  // "database made", trainee, person, exercise, one attempt begun and ended
+  EXPECT_EQ(first.to, 6);
   EXPECT_EQ(rows_in(first, "attempt"), 1u);
   EXPECT_EQ(rows_in(first, "ruleset"), 1u);
   EXPECT_EQ(rows_in(first, "trainee"), 1u);
-  const Batch rest = read_batch(connection(), 5, 100);
+  const Batch rest = read_batch(connection(), 6, 100);
   EXPECT_EQ(rest.to, audit_head(connection()).position);
   EXPECT_EQ(rows_in(rest, "attempt"), 2u);
   EXPECT_EQ(rows_in(rest, "ruleset"), 1u) << "one row, however many attempts name it";
