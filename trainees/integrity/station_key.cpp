@@ -74,9 +74,8 @@ std::string lost_key(sqlite3* connection) {
   const char* file = sqlite3_db_filename(connection, "main");
   if (file == nullptr || *file == '\0' || announced_keys(connection).empty() || fs::exists(key_path(file))) return "";
   return "its key " + key_path(file).filename().string() +
-         " is missing: what is written now is not signed, which db check tells for ever. Put it back, or make a new "
-         "one "
-         "with trocar db key --renew";
+         " is missing: what is written now is not signed, which db check tells for ever. "
+         "Put it back, or make a new one with trocar db key --renew";
 }
 
 std::vector<AnnouncedKey> announced_keys(sqlite3* connection) {

@@ -15,7 +15,7 @@ namespace trocar {
 
 /// Why what lies in the place of an attempt's recording is not to be shown as its own, "" when it may be: another file
 /// than it was kept with, or, where nothing was graded from it, one that is another attempt's or not signed here.
-/// Why one cannot be read is told by whoever reads it.
+/// What is no whole recording is told by whoever reads it. @throws EnvironmentError: the file cannot be read.
 std::string foreign_recording(Database& database, const AttemptResult& attempt);
 
 /// What the recording of an attempt that was cut off is and gives, a sentence for who decides on the attempt.
