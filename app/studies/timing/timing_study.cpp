@@ -46,13 +46,25 @@ Beside beside_of(const TimedLoad& load) {
   return {run_named(load, "wait alone"), "the wait alone"};
 }
 
+/// Periods that passed while whoever ran beside ours waited for its wake: it does not catch up either.
+std::string lost_beside(const Beside& beside) {
+  if (!beside.run) return "";
+  std::uint64_t lost = 0;
+  beside.run->late.each([&](std::int64_t lower_us, std::uint64_t count) {
+    lost += static_cast<std::uint64_t>(lower_us / kNominalUs) * count;
+  });
+  return " While " + beside.name + " waited beside it, " + std::to_string(lost) + " of " +
+         std::to_string(beside.run->late.count() + lost) + " passed so: as many are the machine's.";
+}
+
 void add_rate(StudyResult& study, const TimedLoad& load, const PatternRun& run, bool judged) {
   const double rate = run.rate_hz();
-  study.cases.push_back(
-      {"mean rate, " + run.name + ", " + load_words(load), "Hz", rate, std::nullopt,
-       judged ? "1000.0 on average" : "reported", !judged || std::abs(rate - kNominalHz) < kAverageTolerance,
-       "Wakes over the time from the first that was asked for to the last; " + std::to_string(run.missed) + " of " +
-           std::to_string(run.late.count() + run.missed) + " periods passed without one."});
+  study.cases.push_back({"mean rate, " + run.name + ", " + load_words(load), "Hz", rate, std::nullopt,
+                         judged ? "1000.0 on average" : "reported",
+                         !judged || std::abs(rate - kNominalHz) < kAverageTolerance,
+                         "Wakes over the time from the first that was asked for to the last; " +
+                             std::to_string(run.missed) + " of " + std::to_string(run.late.count() + run.missed) +
+                             " periods passed without one." + (judged ? lost_beside(beside_of(load)) : "")});
 }
 
 void add_percentiles(StudyResult& study, const TimedLoad& load, bool judged) {

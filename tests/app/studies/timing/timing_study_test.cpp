@@ -99,6 +99,11 @@ TEST(TimingStudy, TheMeanRateIsAThousandToOneDecimal) {
   EXPECT_FALSE(rate.met) << "999.8 Hz";
   EXPECT_NEAR(rate.value, 999.8, 0.01);
   EXPECT_NE(rate.definition.find("2 of 10002 periods passed without one"), std::string::npos) << rate.definition;
+  PatternRun beside = even_run("cyclictest", 9);
+  beside.late.add(2'100'000, 3);
+  const std::string of_both =
+      case_of(result_of(even_run("Trocar, live", 9), beside), "mean rate, Trocar, live, 2 busy processes").definition;
+  EXPECT_NE(of_both.find("cyclictest waited beside it, 6 of 10009 passed so"), std::string::npos) << of_both;
 }
 
 TEST(TimingStudy, WithoutCyclictestOrRightsItSaysSoAndTakesItsOwnWait) {
