@@ -270,7 +270,8 @@ int review_account_password(const ReviewAccountOptions& options, std::istream& i
     err << options.login << ": your password is changed; whoever was signed in with it has to sign in again\n";
     return 0;
   }
-  accounts.set_password(options.login, new_password(options.login, in, err), "");
+  const auto confirmed = options.as.empty() ? std::nullopt : std::optional(required_role(options.as));
+  accounts.set_password(options.login, new_password(options.login, in, err), "", confirmed);
   err << options.login << ": the password is changed; whoever was signed in with it has to sign in again\n";
   return 0;
 }
@@ -351,6 +352,8 @@ void add_review_account(CLI::App& parent, CommandAction& chosen) {
   CLI::App* password = add("password", "New password",
                            [given] { return review_account_password(*given, std::cin, std::cout, std::cerr); });
   password->add_flag("--own", o.own, "Your own, by the present one, which is asked for first");
+  password->add_option("--as", o.as,
+                       "Role that it is to have, where its row was changed by another way than this program");
   CLI::App* disable = add("disable", "Can no longer sign in",
                           [given] { return review_account_disable(*given, true, std::cout, std::cerr); });
   CLI::App* enable = add("enable", "Can sign in again",

@@ -41,6 +41,7 @@ struct ReviewAccountOptions {
   std::string trainee = {};  ///< code, of a trainee's account; empty: the login
   bool json = false;         ///< of list
   bool own = false;          ///< of password: by its owner, who knows the present one
+  std::string as = {};       ///< of password: the role, where the row is not the one that the trail holds
 };
 
 /// Passwords are asked for at the terminal, twice and unseen; from elsewhere lines of `in` are taken, the present one

@@ -102,6 +102,7 @@ const std::map<std::string, Translator>& commands_about_people() {
       {"review report",
        {"--trainee", "--cohort", "--group", "--attempt", "--certificate", "--out", "--notes", "--force", "--db"}},
       {"review account", {"add", "password", "disable", "enable", "list"}},
+      {"review account password", {"--own", "--as", "--db"}},
       {"review account add", {"--name", "--role", "--trainee", "--db"}},
       {"review account list", {"--json", "--db"}},
       {"lrs",

@@ -1,5 +1,5 @@
 // A transaction that may leave entries in the audit trail: once it stands, the trail's new head is anchored
-// (anchor_file.h). Internal to trainees/.
+// (anchor_file.h). It begins only where this program's own triggers alone act on it. Internal to trainees/.
 #pragma once
 
 #include "trainees/integrity/anchor_file.h"
@@ -11,9 +11,9 @@ namespace trocar {
 class AnchoredTransaction {
  public:
   explicit AnchoredTransaction(Database& database)
-      : database_(&database),
-        transaction_(database.connection()),
-        before_(audit_head(database.connection()).position) {}
+      : database_(&database), transaction_(database.connection()), before_(audit_head(database.connection()).position) {
+    database.require_own_schema();
+  }
 
   /// Rolled back unless this is called.
   void commit() {

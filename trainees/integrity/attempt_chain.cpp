@@ -89,7 +89,7 @@ Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) 
   Link link{attempt, 1, version.integer(0), "", status_name(status)};
   sql::Statement last(connection,
                       "SELECT chain_position, row_hash FROM attempt WHERE chain_position IS NOT NULL"
-                      " ORDER BY chain_position DESC LIMIT 1");
+                      " AND status <> 'running' ORDER BY chain_position DESC LIMIT 1");
   if (last.step()) {
     link.position = last.integer(0) + 1;
     link.previous = last.text(1);

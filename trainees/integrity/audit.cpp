@@ -87,6 +87,11 @@ void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
                          " (SELECT 1 FROM audit u WHERE u.action IN (?, ?) AND u.subject = a.uuid)");
   unknown.bind(kActionFinished).bind(kActionReplicated);
   while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");
+  sql::Statement elsewhere(connection, "SELECT uuid FROM attempt WHERE id IN (SELECT attempt_id FROM replica)");
+  while (elsewhere.step())
+    if (!came_from_elsewhere(connection, elsewhere.text(0)))
+      problems.push_back("attempt " + elsewhere.text(0) +
+                         " is kept as another station's, and no signed entry says that it came from there");
 }
 
 /// Begun attempts stay, and each that ended or runs since the first such entry has one. A row that ended was compared
@@ -112,6 +117,59 @@ std::string begun_digest(sqlite3* connection, const std::string& uuid) {
   return digest::of_bytes(identity_of(connection, uuid, ""));
 }
 
+/// What else stays as it is while an attempt runs.
+std::string running_digest(sqlite3* connection, const std::string& uuid) {
+  sql::Statement row(connection,
+                     "SELECT exercise_version, organ_name, organ_source, organ_sha256, organ_synthetic, organ_credit,"
+                     " started_utc, owner_pid, owner_boot, owner_start, recording_path, program, assists, hash_version,"
+                     " (SELECT uuid FROM session WHERE id = session_id),"
+                     " (SELECT sha256 FROM device_calibration WHERE id = calibration_id) FROM attempt WHERE uuid = ?");
+  std::string content = "trocar-running-1\n";
+  if (row.bind(uuid).step())
+    for (int column = 0; column < row.columns(); ++column) row.append_canonical(column, content);
+  return digest::of_bytes(content);
+}
+
+/// The keys that count: those up to the one beside the database, where that is there. What somebody announced after it
+/// is not the station's.
+std::vector<AnnouncedKey> trusted_keys(sqlite3* connection) {
+  std::vector<AnnouncedKey> keys = announced_keys(connection);
+  const auto here = station_key(connection);
+  if (!here) return keys;
+  const std::string own = here->public_key();
+  while (!keys.empty() && keys.back().public_key != own) keys.pop_back();
+  return keys.empty() ? announced_keys(connection) : keys;
+}
+
+/// Entry of the attempt that began; position 0: none.
+struct Beginning {
+  std::int64_t position = 0;
+  std::string digests;
+};
+
+/// Whether the row is still what the entry tells.
+bool row_is(sqlite3* connection, const std::string& uuid, const Beginning& began) {
+  std::string now = begun_digest(connection, uuid);
+  sql::Statement running(connection, "SELECT 1 FROM attempt WHERE uuid = ? AND status = 'running'");
+  const std::size_t both = began.digests.find(' ');  // an earlier program told the first only
+  if (running.bind(uuid).step() && both != std::string::npos) now += " " + running_digest(connection, uuid);
+  return began.digests.substr(0, now.size()) == now;
+}
+
+/// Whether what is written now is signed with a key that the trail names.
+bool signs(sqlite3* connection) {
+  const auto here = station_key(connection);
+  const std::vector<AnnouncedKey> keys = announced_keys(connection);
+  return here && std::any_of(keys.begin(), keys.end(),
+                             [own = here->public_key()](const AnnouncedKey& key) { return key.public_key == own; });
+}
+
+Beginning beginning_of(sqlite3* connection, const std::string& uuid) {
+  sql::Statement entry(connection, "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
+  if (!entry.bind(uuid).bind(kActionBegun).step()) return {};
+  return {entry.integer(0), entry.text(1)};
+}
+
 std::string field_at(sqlite3* connection, const char* query, std::int64_t position) {
   sql::Statement row(connection, query);
   return row.bind(position).step() ? row.text(0) : "";
@@ -133,17 +191,32 @@ void append_audit(sqlite3* connection, const std::string& action, const std::str
 }
 
 void audit_begun(sqlite3* connection, const std::string& uuid) {
-  append_audit(connection, kActionBegun, uuid, begun_digest(connection, uuid));
+  append_audit(connection, kActionBegun, uuid, begun_digest(connection, uuid) + " " + running_digest(connection, uuid));
 }
 
 std::string begun_problem(sqlite3* connection, const std::string& uuid) {
   sql::Statement any(connection, "SELECT 1 FROM audit WHERE action = ? LIMIT 1");
   if (!any.bind(kActionBegun).step()) return "";
-  sql::Statement entry(connection, "SELECT detail, position FROM audit WHERE subject = ? AND action = ?");
-  if (!entry.bind(uuid).bind(kActionBegun).step()) return "no entry says that it began: its row was put in";
-  if (!entry_signed(connection, entry.integer(1)))
+  const Beginning began = beginning_of(connection, uuid);
+  if (began.position == 0) return "no entry says that it began: its row was put in";
+  if (!entry_signed(connection, began.position))
     return "the entry of its beginning is not signed with the station's key";
-  return entry.text(0) == begun_digest(connection, uuid) ? "" : "its row is not as it began: it was changed";
+  return row_is(connection, uuid, began) ? "" : "its row is not as it began: it was changed";
+}
+
+bool as_begun(sqlite3* connection, const std::string& uuid) {
+  const std::string problem = begun_problem(connection, uuid);
+  if (problem.empty()) return true;
+  const Beginning began = beginning_of(connection, uuid);
+  return began.position > 0 && !signs(connection) && row_is(connection, uuid, began);
+}
+
+bool began_here(sqlite3* connection, const std::string& uuid) { return beginning_of(connection, uuid).position > 0; }
+
+bool came_from_elsewhere(sqlite3* connection, const std::string& uuid) {
+  sql::Statement entry(connection, "SELECT position FROM audit WHERE subject = ? AND action = ?");
+  return !began_here(connection, uuid) && entry.bind(uuid).bind(kActionReplicated).step() &&
+         entry_signed(connection, entry.integer(0));
 }
 
 AuditHead audit_head(sqlite3* connection) {
@@ -152,13 +225,23 @@ AuditHead audit_head(sqlite3* connection) {
   return {last.integer(0), last.text(1)};
 }
 
+std::string key_at(sqlite3* connection, std::int64_t position) {
+  std::string holder;
+  for (const AnnouncedKey& key : trusted_keys(connection))
+    if (key.position <= position) holder = key.public_key;
+  return holder;
+}
+
+std::string key_of_attempt(sqlite3* connection, const std::string& uuid) {
+  const std::int64_t began = beginning_of(connection, uuid).position;
+  return began > 0 ? key_at(connection, began) : "";
+}
+
 bool entry_signed(sqlite3* connection, std::int64_t position) {
-  const std::vector<AnnouncedKey> keys = announced_keys(connection);
-  if (keys.empty() || position < keys.front().position) return true;
+  const std::string holder = key_at(connection, position);
+  if (holder.empty()) return true;
   sql::Statement row(connection, "SELECT row_hash, signature FROM audit WHERE position = ?");
-  return row.bind(position).step() && std::any_of(keys.begin(), keys.end(), [&row](const AnnouncedKey& key) {
-           return signature_holds(key.public_key, head_text(row.text(0)), row.text(1));
-         });
+  return row.bind(position).step() && signature_holds(holder, head_text(row.text(0)), row.text(1));
 }
 
 std::string audit_hash(sqlite3* connection, std::int64_t position) {

@@ -15,7 +15,8 @@ struct sqlite3;
 
 namespace trocar {
 
-inline constexpr const char* kActionBegun = "attempt begun";        ///< subject: uuid, detail: digest of identity_of()
+inline constexpr const char* kActionBegun =
+    "attempt begun";  ///< subject: uuid, detail: digest of identity_of(), another of what else stays while it runs
 inline constexpr const char* kActionFinished = "attempt finished";  ///< subject: uuid, detail: row_hash
 inline constexpr const char* kActionReplicated =
     "attempt replicated";                                      ///< of another station; subject: uuid, detail: row_hash
@@ -45,7 +46,23 @@ void audit_begun(sqlite3* connection, const std::string& uuid);
 /// began: an earlier program made no such entries.
 std::string begun_problem(sqlite3* connection, const std::string& uuid);
 
-/// Whether a key that the trail names has signed the entry, or it is older than the first of them.
+/// Whether its row is what it began with, as far as this station can know: while its key is lost it signs nothing.
+bool as_begun(sqlite3* connection, const std::string& uuid);
+
+/// Whether the trail has an entry of its beginning.
+bool began_here(sqlite3* connection, const std::string& uuid);
+
+/// Whether a signed entry says that it came from another station, and none that it began here.
+bool came_from_elsewhere(sqlite3* connection, const std::string& uuid);
+
+/// The station's key at that entry, "" before the first. One announced after that which lies beside the database is not
+/// the station's.
+std::string key_at(sqlite3* connection, std::int64_t position);
+
+/// The same at the beginning of the attempt; "" where no entry tells of it.
+std::string key_of_attempt(sqlite3* connection, const std::string& uuid);
+
+/// Whether the station's key at that entry has signed it, or it is older than the first.
 bool entry_signed(sqlite3* connection, std::int64_t position);
 
 /// What the station's key signs of an entry.

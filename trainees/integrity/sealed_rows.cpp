@@ -159,11 +159,11 @@ std::string newest_first(const std::string& table, const std::string& row, const
          " WHERE n" + entry + ") DESC, (SELECT n.position FROM audit n WHERE n" + entry + ") DESC";
 }
 
-bool account_holds(sqlite3* connection, const std::string& uuid) {
+bool row_holds(sqlite3* connection, const std::string& table, const std::string& uuid) {
   sql::Statement newest(connection,
-                        "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB 'account *'"
+                        "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ? || ' *'"
                         " ORDER BY position DESC LIMIT 1");
-  return newest.bind(uuid).step() && newest.text(1) == digest_of_row(connection, kAccountTable, uuid) &&
+  return newest.bind(uuid).bind(table).step() && newest.text(1) == digest_of_row(connection, table, uuid) &&
          entry_signed(connection, newest.integer(0));
 }
 

@@ -48,9 +48,9 @@ void seal_account(sqlite3* connection, const std::string& action, const std::str
 /// Digest of a row of a sealed table or of an account as it stands. @throws InputError: no such row.
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid);
 
-/// Whether an account is as its newest entry says, and the entry signed: nobody comes in by a row that somebody wrote
-/// into the file.
-bool account_holds(sqlite3* connection, const std::string& uuid);
+/// Whether a row of a sealed table, or an account, is as its newest entry says, and the entry signed: what somebody
+/// wrote into the file lets nobody in and rules nothing.
+bool row_holds(sqlite3* connection, const std::string& table, const std::string& uuid);
 
 /// Problems between rows and trail, one line each. Rows that went by a recorded erasure are none.
 std::vector<std::string> check_sealed_rows(sqlite3* connection);

@@ -97,6 +97,17 @@ void require_another(sqlite3* connection, const Account& account) {
                    " who can sign in; make or enable another one first, nothing was changed");
 }
 
+/// Whoever changed the row in the file without the station's key must not have it confirmed by the next signed entry.
+void require_held(sqlite3* connection, const Account& account, const std::optional<Role>& confirmed) {
+  if (confirmed ? *confirmed == account.role : row_holds(connection, "account", account.uuid)) return;
+  const std::string role = role_name(account.role);
+  throw InputError("account \"" + account.login + "\": its row (" + role +
+                   (account.trainee_code.empty() ? "" : " " + account.trainee_code) +
+                   ") is not the one that the signed trail holds: it was changed by another way, or while the station's"
+                   " key was missing. Nothing was changed; where " +
+                   role + " is right: trocar review account password " + account.login + " --as " + role);
+}
+
 /// Row of the trainee whose account it is to be. Call inside the transaction.
 std::int64_t trainee_without_account(sqlite3* connection, const std::string& code) {
   sql::Statement row(connection,
@@ -155,11 +166,13 @@ Account AccountStore::add(const std::string& login, const std::string& name, Rol
   return by_uuid(uuid).value();
 }
 
-void AccountStore::set_password(const std::string& login, const std::string& password, const std::string& author) {
+void AccountStore::set_password(const std::string& login, const std::string& password, const std::string& author,
+                                const std::optional<Role>& confirmed) {
   check_password(password, required(find(login), login).role, login);
   const std::string hash = hashed(password);
   AnchoredTransaction transaction(*database_);
   const Account account = required(find(login), login);
+  require_held(database_->connection(), account, confirmed);
   sql::Statement(database_->connection(), "UPDATE account SET password = ? WHERE uuid = ?")
       .bind(hash)
       .bind(account.uuid)
@@ -192,6 +205,7 @@ void AccountStore::set_disabled(const std::string& login, bool disabled, const s
   AnchoredTransaction transaction(*database_);
   const Account account = required(find(login), login);
   if (disabled != account.disabled_utc.empty()) return;  // it is so already
+  require_held(database_->connection(), account, std::nullopt);
   if (disabled) require_another(database_->connection(), account);
   sql::Statement update(database_->connection(), "UPDATE account SET disabled_utc = ? WHERE uuid = ?");
   if (disabled)
@@ -206,6 +220,17 @@ void AccountStore::set_disabled(const std::string& login, bool disabled, const s
 void AccountStore::signed_in(const std::string& account) { note_coming(*database_, "signed in", account, account); }
 void AccountStore::signed_out(const std::string& account) { note_coming(*database_, "signed out", account, account); }
 void AccountStore::held_back(const std::string& account) { note_coming(*database_, "sign-in held back", account, ""); }
+
+bool accounts_kept(sqlite3* connection, bool enabled, std::int64_t after) {
+  sql::Statement row(
+      connection,
+      "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '' AND (NOT ?1 OR disabled_utc IS NULL)) OR"
+      " EXISTS (SELECT 1 FROM audit u WHERE position > ?2 AND action = 'account added' AND (SELECT action FROM audit n"
+      " WHERE n.subject = u.subject AND n.action IN ('account added', 'account disabled',"
+      " 'account enabled', 'account erased') ORDER BY n.position DESC LIMIT 1) NOT IN"
+      " ('account erased', CASE WHEN ?1 THEN 'account disabled' ELSE '' END))");
+  return row.bind(enabled).bind(after).step() && row.integer(0) != 0;
+}
 
 std::optional<Account> AccountStore::verify(const std::string& login, const std::string& password) const {
   start_library();
@@ -222,7 +247,7 @@ std::optional<Account> AccountStore::verify(const std::string& login, const std:
   }
   const std::string given = password.substr(0, kLongestPassword + 1);  // what is longer is wrong, and takes no longer
   const bool right = crypto_pwhash_str_verify(hash.c_str(), given.data(), given.size()) == 0;
-  return right && account && account_holds(database_->connection(), account->uuid) ? account : std::nullopt;
+  return right && account && row_holds(database_->connection(), "account", account->uuid) ? account : std::nullopt;
 }
 
 std::optional<Account> AccountStore::find(const std::string& login) const {

@@ -52,7 +52,10 @@ std::string uuid_at(std::uint64_t steps) {
 
 std::string make_uuid() { return uuid_at(steps_now()); }
 
-std::string make_uuid_after(const std::string& before) { return uuid_at(std::max(steps_now(), steps_of(before) + 1)); }
+std::string make_uuid_after(const std::string& before) {
+  constexpr std::uint64_t kLast = (std::uint64_t{1} << 60) - 1;
+  return uuid_at(std::max(steps_now(), std::min(steps_of(before) + 1, kLast)));
+}
 
 std::string utc_now() {
   const std::int64_t now = nanoseconds_since_epoch();

@@ -55,8 +55,10 @@ bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const fs::p
     sql::Statement again(connection, "SELECT 1 FROM attempt WHERE id = ? AND status = 'running'");
     if (!again.bind(attempt.id).step()) return false;
   }
-  write_result(connection, attempt.id, aborted_result(recording, begun_problem(connection, attempt.uuid)),
-               recording.empty() ? "" : attempt.stored_recording);
+  // Of a row that was changed nobody knows what file it names.
+  const fs::path kept = as_begun(connection, attempt.uuid) ? recording : fs::path();
+  write_result(connection, attempt.id, aborted_result(kept, begun_problem(connection, attempt.uuid)),
+               kept.empty() ? "" : attempt.stored_recording);
   transaction.commit();
   return true;
 }
@@ -66,10 +68,11 @@ bool end_attempt(sqlite3* connection, const RunningAttempt& attempt, const fs::p
 std::vector<RecoveredAttempt> recover_dead_attempts(sqlite3* connection, const fs::path& database) {
   std::vector<RecoveredAttempt> recovered;
   for (const RunningAttempt& attempt : running_attempts(connection)) {
-    if (process_lives(attempt.owner)) continue;
+    // Whoever changed the row may have given it an owner that lives for ever.
+    if (process_lives(attempt.owner) && as_begun(connection, attempt.uuid)) continue;
     const fs::path recording = located_recording(database, attempt.stored_recording);
     std::error_code error;
-    const bool left = !recording.empty() && fs::is_regular_file(recording, error);
+    const bool left = !recording.empty() && fs::is_regular_file(fs::symlink_status(recording, error));
     const fs::path kept = left ? recording : fs::path();
     if (!end_attempt(connection, attempt, kept)) continue;
     recovered.push_back({attempt.uuid, attempt.trainee, kept});

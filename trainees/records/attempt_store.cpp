@@ -262,7 +262,8 @@ void AttemptStore::finish_attempt(const AttemptId& id, const AttemptResult& resu
       throw InputError("attempt " + id.uuid + ": is already " + status.text(0) + " and cannot be finished again");
     }
   }
-  if (!id.identity.empty() && identity_of(connection, id.uuid, id.key ? id.key->public_key() : "") != id.identity)
+  if (!id.identity.empty() && (identity_of(connection, id.uuid, id.key ? id.key->public_key() : "") != id.identity ||
+                               !as_begun(connection, id.uuid)))
     throw InputError("attempt " + id.uuid + ": its row was changed while it ran; it is not graded");
   write_result(connection, id.row, result, stored_recording_path(database_->file(), recording), finished_utc);
   transaction.commit();
@@ -336,24 +337,28 @@ std::string AttemptStore::exercise_text(const std::string& rubric_sha256) const 
 std::string AttemptStore::recording_problem(const std::string& attempt_uuid, const std::string& identity,
                                             const std::string& signed_by) const {
   sqlite3* connection = database_->connection();
-  sql::Statement attempt(
-      connection,
-      "SELECT hash_version, EXISTS (SELECT 1 FROM replica r WHERE r.attempt_id = a.id) FROM attempt a"
-      " WHERE uuid = ?");
+  sql::Statement attempt(connection, "SELECT hash_version FROM attempt WHERE uuid = ?");
   if (!attempt.bind(attempt_uuid).step()) throw InputError("attempt " + attempt_uuid + ": not in this database");
-  if (attempt.integer(0) < kFirstBoundVersion || database_->in_memory() || is_demo(*database_)) return "";
-  const bool of_another_station = attempt.integer(1) != 0;  // whose keys stand in its own trail
+  const bool unbound = attempt.integer(0) < kFirstBoundVersion && !began_here(connection, attempt_uuid);
+  if (unbound || database_->in_memory() || is_demo(*database_)) return "";
   const auto said = nlohmann::ordered_json::parse(identity, nullptr, false);
   if (!said.is_object()) return "does not say whose it is";
-  const auto wanted = nlohmann::ordered_json::parse(identity_of(connection, attempt_uuid, said.value("key", "")));
+  const auto key = said.find("key");
+  if (key == said.end() || !key->is_string()) return "does not say whose key signs it";
+  const auto wanted = nlohmann::ordered_json::parse(identity_of(connection, attempt_uuid, key->get<std::string>()));
   for (const auto& [name, value] : wanted.items())
     if (said.value(name, nlohmann::ordered_json()) != value)
       return "is of another attempt: " + name + " " + said.value(name, nlohmann::ordered_json()).dump() +
              " instead of " + value.dump();
   const auto keys = announced_keys(connection);
-  const bool known =
-      std::any_of(keys.begin(), keys.end(), [&](const AnnouncedKey& key) { return key.public_key == signed_by; });
-  if (known || (keys.empty() && signed_by.empty()) || (of_another_station && !signed_by.empty())) return "";
+  const std::string holder = key_of_attempt(connection, attempt_uuid);
+  const bool known = holder.empty() ? std::any_of(keys.begin(), keys.end(),
+                                                  [&](const AnnouncedKey& one) { return one.public_key == signed_by; })
+                                    : holder == signed_by;
+  // The keys of another station stand in its own trail.
+  if (known || (keys.empty() && signed_by.empty()) ||
+      (!signed_by.empty() && came_from_elsewhere(connection, attempt_uuid)))
+    return "";
   if (keys.empty()) return "is signed with a key that the record no longer names";
   return signed_by.empty() ? "is not signed with the station's key" : "is signed with another station's key";
 }

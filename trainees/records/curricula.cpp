@@ -7,6 +7,7 @@
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/progress/benchmarks.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
@@ -91,6 +92,8 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
   check_prose("curriculum " + name, toml, kLongestText);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  if (const std::string lost = lost_key(connection); !lost.empty())
+    throw InputError("curriculum " + name + ": not kept, for a text that is not signed rules nothing: " + lost);
   const std::optional<Curriculum> last = newest(name);
   if (last && last->toml == toml) return *last;
   const Curriculum next{next_row_uuid(connection, "curriculum"),
@@ -119,9 +122,11 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
 std::optional<Curriculum> CurriculumStore::newest(const std::string& name) const {
   // Two stations may have written the same version, neither knowing of the other: then one holds, the same everywhere.
   sql::Statement row(database_->connection(),
-                     std::string(kCurricula) + " WHERE name = ? ORDER BY version DESC, uuid DESC LIMIT 1");
-  if (!row.bind(name).step()) return std::nullopt;
-  return curriculum_of(row);
+                     std::string(kCurricula) + " WHERE name = ? ORDER BY version DESC, uuid DESC");
+  row.bind(name);
+  while (row.step())  // a row that came in by another way rules nothing, and hides none that does
+    if (row_holds(database_->connection(), "curriculum", row.text(0))) return curriculum_of(row);
+  return std::nullopt;
 }
 
 std::vector<Curriculum> CurriculumStore::list() const {

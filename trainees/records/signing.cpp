@@ -1,6 +1,7 @@
 #include "trainees/records/signing.h"
 
 #include "haptics/input_error.h"
+#include "trainees/records/accounts.h"
 #include "trainees/records/demo_record.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -24,8 +25,7 @@ std::string why_no_signature(const Database& database, const std::string& accoun
     return given_by_another(connection, account_uuid)
                ? "your password was given to you by somebody else, who knows it too: set your own first"
                : "";
-  if (sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '')") != 0)
-    return "accounts are kept here, so only an account can sign: sign in first";
+  if (accounts_kept(connection, false)) return "accounts are kept here, so only an account can sign: sign in first";
   if (sql::query_integer(connection, "SELECT count(*) FROM person") > 1)
     return "several people are kept here, so a signature must be somebody's: make an account first";
   return "";

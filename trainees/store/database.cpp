@@ -115,7 +115,8 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, std
   sql::keep_statements(connection_.get());
   add_cap_sentence(connection_.get());
   anchor_beginning();
-  recovered_ = recover_dead_attempts(connection_.get(), file_);
+  if (meddling_schema(connection_.get(), migrations_).empty())
+    recovered_ = recover_dead_attempts(connection_.get(), file_);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));
 }
 
@@ -160,6 +161,16 @@ void Database::anchor_beginning() {
   // A missing file is made only where nothing could have been lost with it; otherwise check() must see that it is gone.
   const AuditHead head = audit_head(connection_.get());
   if (head.position == 1 && !in_memory() && !fs::exists(anchor_path(file_))) append_anchor(file_, head);
+}
+
+void Database::require_own_schema() {
+  // A schema that is changed under its number is one that SQLite does not read anew either, so it cannot act here.
+  const std::int64_t present = sql::query_integer(connection_.get(), "PRAGMA schema_version");
+  if (present == own_schema_) return;
+  if (const std::string other = meddling_schema(connection_.get(), migrations_); !other.empty())
+    throw InputError(file_.string() + ": nothing is written to it: " + other +
+                     ", and would act on what is written (trocar db check names all that was altered)");
+  own_schema_ = present;
 }
 
 std::string Database::head() const {

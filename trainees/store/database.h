@@ -56,6 +56,9 @@ class Database {
   /// Problems of file, schema, references, hash chain, audit trail, what people wrote and anchor, one line each; empty
   /// when sound.
   std::vector<std::string> check() const;
+  /// For who writes, inside the transaction: nothing but this program's own triggers may act on what it writes.
+  /// @throws InputError: something else would, by name.
+  void require_own_schema();
   /// Head of the audit trail as "POSITION:HASH": noted elsewhere, it shows any later change of what is there now.
   std::string head() const;
   /// Begins a new anchor file where the old one was lost, and says so in the audit trail.
@@ -76,6 +79,7 @@ class Database {
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, Close> connection_;
   std::span<const Migration> migrations_;
+  std::int64_t own_schema_ = -1;  ///< PRAGMA schema_version of the schema that was looked at last
   MigrationReport migration_;
   std::vector<RecoveredAttempt> recovered_;
 };

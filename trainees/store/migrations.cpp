@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <system_error>
 
 #include "haptics/input_error.h"
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kFirstSigned = 2;
 constexpr const char* kSignatures = "ALTER TABLE audit ADD COLUMN signature TEXT NOT NULL DEFAULT ''";
 
 struct Close {
@@ -101,6 +103,20 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
   return parts;
 }
 
+/// What these migrations make, kept for the next time; nothing that they lead to changes.
+const std::map<std::string, std::string>& wanted_schema(std::span<const Migration> migrations) {
+  static std::mutex mutex;
+  static std::map<const Migration*, std::map<std::string, std::string>> kept;
+  const std::lock_guard lock(mutex);
+  const Migration* last = &migrations.back();
+  if (const auto known = kept.find(last); known != kept.end()) return known->second;
+  sqlite3* raw = nullptr;
+  sqlite3_open(":memory:", &raw);
+  const Connection fresh(raw);
+  migrate(raw, "", migrations);
+  return kept.emplace(last, schema_of(raw)).first->second;
+}
+
 }  // namespace
 
 std::span<const Migration> shipped_migrations() {
@@ -114,6 +130,10 @@ std::span<const Migration> shipped_migrations() {
 void note_migration(sqlite3* connection, int from, int to) {
   const std::string wanted = std::to_string(to);
   const fs::path file = sqlite3_db_filename(connection, "main");
+  if (from >= kFirstSigned && !file.empty() && announced_keys(connection).empty())
+    throw InputError(name_of(file) + ": is of schema " + std::to_string(from) +
+                     ", and no entry names the station's key, as the first of each such record does: it was taken"
+                     " away; the database was left as it was");
   const std::string key = file.empty() ? "" : make_station_key(file).public_key();
   if (from == 0) return append_audit(connection, kActionMade, "schema " + wanted, key);
   const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
@@ -124,12 +144,19 @@ void note_migration(sqlite3* connection, int from, int to) {
   if (announced_keys(connection).empty() && !key.empty()) append_audit(connection, kActionKey, kActionKey, key);
 }
 
+std::string meddling_schema(sqlite3* connection, std::span<const Migration> migrations) {
+  const auto& wanted = wanted_schema(migrations);
+  for (const auto& [part, text] : schema_of(connection)) {
+    const auto own = wanted.find(part);
+    if (own == wanted.end() ? part.starts_with("trigger ") : own->second != text)
+      return part + (own == wanted.end() ? " does not belong there" : " was altered");
+  }
+  return "";
+}
+
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {
-  sqlite3* raw = nullptr;
-  sqlite3_open(":memory:", &raw);
-  const Connection fresh(raw);
-  migrate(raw, "", migrations);
-  const auto found = schema_of(connection), wanted = schema_of(raw);
+  const auto found = schema_of(connection);
+  const auto& wanted = wanted_schema(migrations);
   std::vector<std::string> problems;
   for (const auto& [part, text] : wanted) {
     const auto present = found.find(part);

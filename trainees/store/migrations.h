@@ -51,4 +51,8 @@ void copy_database(sqlite3* from, const std::filesystem::path& to);
 /// Where the schema of the database is not that of `migrations`: tables, indices, triggers, views; one line each.
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations);
 
+/// What in the schema would act on rows in another way than this program means, "" when nothing: a trigger that does
+/// not belong there, a trigger, table or view that was altered.
+std::string meddling_schema(sqlite3* connection, std::span<const Migration> migrations);
+
 }  // namespace trocar

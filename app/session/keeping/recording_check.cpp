@@ -99,7 +99,7 @@ std::vector<std::string> check_by_recordings(Database& database, const Recording
       lock.lock();
       const std::string another = store.recording_problem(stored.uuid, recording->attempt, recording->signed_by);
       if (!another.empty()) problem = another;
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       problem = error.what();
     }
     if (!lock.owns_lock()) lock.lock();

@@ -100,6 +100,47 @@ class RewrittenHistory : public TemporaryFolder {
   std::string made_;
 };
 
+/// Triggers that change what the program writes would have it sign what it never wrote.
+TEST_F(RewrittenHistory, NothingIsWrittenWhereSomebodyElsesTriggerActs) {
+  const auto refusal = [&] {
+    Database database(file_);
+    return message_of<InputError>([&] { AttemptStore(database).begin_attempt(sample_start()); });
+  };
+  ASSERT_EQ(run_outside(file_,
+                        "DROP TRIGGER score_no_update; CREATE TRIGGER z1 AFTER INSERT ON score BEGIN UPDATE score SET"
+                        " value = 97, passed = 1 WHERE id = NEW.id; END"),
+            "");
+  EXPECT_NE(refusal().find("trigger z1 does not belong there"), std::string::npos) << refusal();
+  EXPECT_NE(said().find("schema: trigger z1 does not belong here"), std::string::npos) << "what is read is read";
+  ASSERT_EQ(run_outside(file_,
+                        "DROP TRIGGER z1; DROP TRIGGER attempt_keeps_identity; CREATE TRIGGER"
+                        " attempt_keeps_identity AFTER INSERT ON score BEGIN SELECT 1; END"),
+            "");
+  EXPECT_NE(refusal().find("trigger attempt_keeps_identity was altered"), std::string::npos) << refusal();
+  ASSERT_EQ(run_outside(file_, "DROP TRIGGER attempt_keeps_identity"), "");
+  EXPECT_EQ(refusal(), "") << "a guard that is gone changes nothing; db check tells";
+}
+
+TEST_F(RewrittenHistory, ATriggerPlantedWhileAnAttemptRunsStopsItsEnd) {
+  Database database(file_);
+  AttemptStore store(database);
+  const AttemptId id = store.begin_attempt(sample_start());
+  ASSERT_EQ(run_outside(file_, "CREATE TRIGGER z1 AFTER INSERT ON score BEGIN SELECT 1; END"), "");
+  EXPECT_NE(message_of<InputError>([&] { store.finish_attempt(id, sample_result()); }).find("trigger z1"),
+            std::string::npos);
+  ASSERT_EQ(run_outside(file_, "DROP TRIGGER z1"), "");
+  store.finish_attempt(id, sample_result());
+  EXPECT_EQ(problems_of(database), "");
+}
+
+/// A record that another key signed, taken back to a schema that is migrated: the station's key would announce itself.
+TEST_F(RewrittenHistory, ARecordWithoutItsKeysEntryIsNotMigrated) {
+  rewrite(kNoKey);
+  ASSERT_EQ(run_outside(file_, "PRAGMA user_version = 3"), "");
+  EXPECT_NE(message_of<InputError>([&] { const Database database(file_); }).find("no entry names the station's key"),
+            std::string::npos);
+}
+
 TEST_F(RewrittenHistory, WithoutTheKeyItShows) {
   fs::rename(key_path(file_), folder_ / "taken");
   rewrite();

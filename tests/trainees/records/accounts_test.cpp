@@ -169,8 +169,63 @@ TEST_F(AccountsOnDisk, AnAccountMadeUnderAnotherKeySignsNobodyIn) {
   accounts.add("i.adler", "Ida Adler", Role::kAdministrator, "", kPassword, "");
   std::filesystem::rename(kept, key);
   EXPECT_FALSE(accounts.verify("mallory", kPassword));
-  accounts.set_password("i.adler", kPassword, "");
+  accounts.set_password("i.adler", kPassword, "", Role::kAdministrator);
   EXPECT_TRUE(accounts.verify("i.adler", kPassword)) << "what the station's program writes anew holds";
+}
+
+/// Whoever resets a password means the password, not what somebody made of the account.
+TEST_F(AccountsOnDisk, APasswordSetAnewConfirmsNoRoleThatSomebodyWrote) {
+  const std::filesystem::path file = folder_ / "t.db";
+  Database database(file);
+  AccountStore accounts(database);
+  accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  accounts.add("second", "Second", Role::kAdministrator, "", kPassword, "");
+  ASSERT_EQ(run_without_triggers(file, "UPDATE account SET role = 'administrator' WHERE login = 'i.adler'"), "");
+  const auto refusal = [&](const std::function<void()>& action) { return message_of<InputError>(action); };
+  EXPECT_NE(refusal([&] { accounts.set_password("i.adler", kPassword, ""); }).find("--as administrator"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { accounts.set_password("i.adler", kPassword, "", Role::kInstructor); }).find("--as"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { accounts.set_disabled("i.adler", true, ""); }).find("changed by another way"),
+            std::string::npos);
+  EXPECT_FALSE(accounts.verify("i.adler", kPassword));
+  accounts.set_password("i.adler", kPassword, "", Role::kAdministrator);
+  EXPECT_TRUE(accounts.verify("i.adler", kPassword));
+}
+
+/// Whoever announces a key of his own in the file is not the station, whose key lies beside it.
+TEST_F(AccountsOnDisk, AnAccountUnderAKeyThatSomebodyAnnouncedSignsNobodyIn) {
+  const std::filesystem::path file = folder_ / "t.db", key = key_path(file), kept = folder_ / "kept.key";
+  Database database(file);
+  AccountStore accounts(database);
+  std::filesystem::rename(key, kept);
+  const SigningKey own = SigningKey::make();
+  write_station_key(file, own);
+  {
+    sql::Transaction transaction(database.connection());
+    append_audit(database.connection(), kActionKey, kActionKey, own.public_key());
+    transaction.commit();
+  }
+  accounts.add("mallory", "Mallory", Role::kAdministrator, "", kPassword, "");
+  std::filesystem::rename(kept, key);
+  EXPECT_FALSE(accounts.verify("mallory", kPassword));
+  accounts.add("i.adler", "Ida Adler", Role::kAdministrator, "", kPassword, "");
+  EXPECT_TRUE(accounts.verify("i.adler", kPassword)) << "the station goes on";
+}
+
+/// Passwords that somebody emptied, rows that somebody took away: what accounts close stays closed.
+TEST_F(AccountsOnDisk, WithoutTheirRowsAccountsAreKeptByTheTrail) {
+  const std::filesystem::path file = folder_ / "t.db";
+  Database database(file);
+  EXPECT_FALSE(accounts_kept(database.connection(), true));
+  AccountStore accounts(database);
+  accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  EXPECT_TRUE(accounts_kept(database.connection(), true));
+  ASSERT_EQ(run_without_triggers(file, "UPDATE account SET password = ''"), "");
+  EXPECT_TRUE(accounts_kept(database.connection(), true));
+  ASSERT_EQ(run_without_triggers(file, "DELETE FROM account"), "");
+  EXPECT_TRUE(accounts_kept(database.connection(), true));
+  EXPECT_FALSE(accounts_kept(database.connection(), true, audit_head(database.connection()).position));
 }
 
 TEST_F(Accounts, TheTableRefusesToMakeSomebodyElseOfAnAccount) {

@@ -7,6 +7,8 @@
 #include "app/session/recording/recording_reader.h"
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/integrity/station_key.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/process_identity.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -138,6 +140,93 @@ TEST_F(AttemptRecovery, ARowThatWasChangedWhileItRanIsTold) {
   Database database(folder_ / "t.db");
   EXPECT_EQ(AttemptStore(database).load("latest").integrity, "its row is not as it began: it was changed");
   EXPECT_NE(problems_of(database).find(": its row is not as it began"), std::string::npos) << problems_of(database);
+}
+
+/// What an attempt began with is told in the trail, what its row says of its file, program and owner too.
+TEST_F(AttemptRecovery, NoOtherFileIsTakenForTheRecordingOfARowThatWasChanged) {
+  for (const char* change : {"recording_path = 't.db.key'", "program = 'trocar 9.9'", "organ_name = 'patient'",
+                             "started_utc = '2020-01-01T00:00:00.000Z'", "hash_version = 1"}) {
+    Child child(folder_ / "t.db");
+    child.kill_and_reap();
+    ASSERT_EQ(run_without_triggers(folder_ / "t.db",
+                                   std::string("UPDATE attempt SET ") + change + " WHERE status = 'running'"),
+              "");
+    const Database database(folder_ / "t.db");
+    Database again(folder_ / "t.db");
+    const AttemptResult died = AttemptStore(again).load("latest");
+    EXPECT_EQ(died.integrity, "its row is not as it began: it was changed") << change;
+    EXPECT_EQ(died.recording_path, "") << change;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "t.db.key"));
+}
+
+/// Else it would run for good, and nothing of its person could be erased.
+TEST_F(AttemptRecovery, ARowWithAnOwnerThatSomebodyWroteEnds) {
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  const ProcessIdentity self = this_process();
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE attempt SET owner_pid = " + std::to_string(self.pid) +
+                                                       ", owner_boot = '" + self.boot +
+                                                       "', owner_start = " + std::to_string(self.start)),
+            "");
+  EXPECT_EQ(Database(folder_ / "t.db").recovered().size(), 1u);
+}
+
+TEST_F(AttemptRecovery, ARowThatWasChangedWhileItRanIsNotGraded) {
+  Database database(folder_ / "t.db");
+  AttemptStore store(database);
+  const AttemptId id = store.begin_attempt(sample_start());
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE attempt SET program = 'trocar 9.9 (official)'"), "");
+  EXPECT_NE(message_of<InputError>([&] { store.finish_attempt(id, sample_result()); }).find("changed while it ran"),
+            std::string::npos);
+}
+
+/// A station whose key is lost goes on: nothing is signed, nothing is lost.
+TEST_F(AttemptRecovery, WithoutTheKeyAttemptsRunOnEndAndKeepTheirRecording) {
+  { Database made(folder_ / "t.db"); }
+  std::filesystem::remove(folder_ / "t.db.key");
+  Child child(folder_ / "t.db");
+  EXPECT_TRUE(Database(folder_ / "t.db").recovered().empty()) << "it lives";
+  child.kill_and_reap();
+  Database database(folder_ / "t.db");
+  ASSERT_EQ(database.recovered().size(), 1u);
+  EXPECT_NE(AttemptStore(database).load("latest").recording_sha256, "");
+  store_attempt(database, sample_start(), sample_result(64));
+  EXPECT_EQ(*AttemptStore(database).load("latest").grade.score, 64);
+}
+
+/// No version of the hash and no table tells whose recording it is, only the signed entry of its beginning.
+TEST_F(AttemptRecovery, ARecordingOfAnotherStaysAnothersWhateverTheRowSays) {
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  std::string uuid;
+  {
+    Database database(folder_ / "t.db");
+    uuid = AttemptStore(database).load("latest").uuid;
+  }
+  const SigningKey own = SigningKey::make();
+  const auto problem = [&](const std::string& identity) {
+    const Database database(folder_ / "t.db");
+    Database again(folder_ / "t.db");
+    return AttemptStore(again).recording_problem(uuid, identity, own.public_key());
+  };
+  std::string forged;
+  {
+    const Database database(folder_ / "t.db");
+    forged = identity_of(database.connection(), uuid, own.public_key());
+  }
+  EXPECT_EQ(problem(forged), "is signed with another station's key");
+  EXPECT_EQ(problem(R"({"attempt": "x", "key": 5})"), "does not say whose key signs it");
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE attempt SET hash_version = 1"), "");
+  EXPECT_EQ(problem(forged), "is signed with another station's key");
+  ASSERT_EQ(run_outside(folder_ / "t.db",
+                        "INSERT INTO station VALUES ('01a22b0b-0000-7000-8000-000000000000', 'Room 2', 0);"
+                        "INSERT INTO replica SELECT id, '01a22b0b-0000-7000-8000-000000000000', chain_position,"
+                        " prev_hash FROM attempt"),
+            "");
+  EXPECT_EQ(problem(forged), "is signed with another station's key");
+  const Database database(folder_ / "t.db");
+  EXPECT_NE(problems_of(database).find("is kept as another station's, and no signed entry"), std::string::npos);
 }
 
 /// Else nobody could open the database any more.

@@ -3,6 +3,7 @@
 
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -40,7 +41,21 @@ TEST_F(Curricula, OfTwoTextsOfOneVersionTheLaterHolds) {
   sql::execute(database_.connection(),
                "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc)"
                " SELECT 'ffff', name, version, sha256, 'there', author, utc FROM curriculum");
+  seal_row(database_.connection(), "curriculum", "ffff", "");
   EXPECT_EQ(store_.newest("course")->toml, "there");
+}
+
+/// Else one row with a text that cannot be read would take every page away.
+TEST_F(Curricula, ARowThatSomebodyPutInRulesNothing) {
+  store_.add("standard", "a = 1\n", author_);
+  sql::execute(
+      database_.connection(),
+      "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc) VALUES"
+      " ('ffffffff-ffff-7fff-8000-000000000001', 'standard', 99, hex(randomblob(32)), '[[[ not toml', '', '')");
+  EXPECT_EQ(store_.newest("standard")->toml, "a = 1\n");
+  const Curriculum next = store_.add("standard", "a = 2\n", author_);
+  EXPECT_EQ(next.uuid.size(), 36u);
+  EXPECT_EQ(store_.newest("standard")->toml, "a = 2\n");
 }
 
 TEST_F(Curricula, BadNamesAndEmptyTextsAreRefused) {

@@ -9,6 +9,7 @@
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/desk_rows.h"
 #include "trainees/desk/queries/desk_views.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/integrity/witness.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/certificate_standing.h"
@@ -127,10 +128,10 @@ std::string witness_words(const Database& database, const std::string& uuid) {
                        "SELECT position, row_hash FROM audit WHERE subject = ? AND action = 'certificate added'");
   if (!entry.bind(uuid).step()) return "";
   std::string out = "entry " + std::to_string(entry.integer(0)) + " of the audit trail, " + key_words(entry.text(1));
-  for (const AnnouncedKey& key : station_keys(database))
-    if (key.position <= entry.integer(0))
-      out = out.substr(0, out.find(", key ")) + ", key " + key_words(key.public_key);
-  return out;
+  const std::string key = key_at(database.connection(), entry.integer(0));
+  if (key.empty()) return out;
+  return out + (entry_signed(database.connection(), entry.integer(0)) ? ", key " + key_words(key)
+                                                                      : ", not signed with the station's key");
 }
 
 void read_stiffness(AttemptView& view, Desk& desk) {

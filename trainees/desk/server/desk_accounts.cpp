@@ -7,9 +7,8 @@
 
 namespace trocar::review {
 
-bool somebody_can_sign_in(const Database& database) {
-  return sql::query_integer(database.connection(),
-                            "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '' AND disabled_utc IS NULL)") != 0;
+bool somebody_can_sign_in(const Database& database, std::int64_t after) {
+  return accounts_kept(database.connection(), true, after);
 }
 
 std::string sign_in_stamp(const Database& database, const std::string& account_uuid) {

@@ -260,17 +260,10 @@ TEST_F(Stations, PracticeGoesOnWhileAPushWaitsForTheNetwork) {
 TEST_F(Stations, ClocksOrderNothing) {
   Database database = station("a");
   AttemptStore store(database);
-  sql::Statement guard(database.connection(), "SELECT sql FROM sqlite_master WHERE name = 'attempt_keeps_identity'");
-  guard.step();
-  const std::string trigger = guard.text(0);
-  guard.run();
   for (const char* utc : {"2087-01-01T00:00:00.000Z", "2001-01-01T00:00:00.000Z", "2044-01-01T00:00:00.000Z"}) {
-    const AttemptId id = store.begin_attempt(sample_start());
-    sql::execute(database.connection(), "DROP TRIGGER attempt_keeps_identity");
-    sql::Statement skew(database.connection(), "UPDATE attempt SET started_utc = ? WHERE id = ?");
-    skew.bind(utc).bind(id.row).run();
-    sql::execute(database.connection(), trigger.c_str());
-    store.finish_attempt(id, sample_result());
+    AttemptStart start = sample_start();
+    start.started_utc = utc;
+    store.finish_attempt(store.begin_attempt(start), sample_result());
   }
   EXPECT_EQ(push(database).added.at("attempt"), 3);
   EXPECT_EQ(ask("SELECT substr(started_utc, 1, 4) FROM attempt ORDER BY station, chain_position"),
