@@ -26,6 +26,8 @@ inline constexpr const char* kActionMessage =
 inline constexpr const char* kActionRenewed = "anchor renewed";    ///< a new anchor file begins with this entry
 inline constexpr const char* kActionMade = "database made";        ///< subject: schema
 inline constexpr const char* kActionMigrated = "schema migrated";  ///< subject: schema, detail: chain before
+/// Ends that detail where a record of before signatures was migrated beside a key.
+inline constexpr const char* kKeyLayThere = ", its key lay there already";
 
 struct AuditHead {
   std::int64_t position = 0;  ///< 0: no entry yet
@@ -82,7 +84,8 @@ struct ClockSetBack {
 inline constexpr double kClockStep_s = 2;
 std::vector<ClockSetBack> clock_set_back(sqlite3* connection);
 
-/// What is worth knowing and no problem, one line each: where the clock was set back.
+/// What is worth knowing and no problem, one line each: where the clock was set back, where the station's key is older
+/// than the record.
 std::vector<std::string> audit_remarks(sqlite3* connection);
 
 /// Problems of the trail and between trail and attempts, one line each.

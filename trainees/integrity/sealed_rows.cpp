@@ -1,5 +1,7 @@
 #include "trainees/integrity/sealed_rows.h"
 
+#include <sqlite3.h>
+
 #include <map>
 
 #include "haptics/digest/digest.h"
@@ -132,7 +134,25 @@ void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
   }
 }
 
+void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
+  const auto text = [values](int which) {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_value_text(values[which]));
+    return bytes == nullptr ? std::string() : std::string(bytes);
+  };
+  try {
+    sqlite3_result_int(context, row_holds(sqlite3_context_db_handle(context), text(0), text(1)) ? 1 : 0);
+  } catch (const std::exception& error) {
+    sqlite3_result_error(context, error.what(), -1);
+  }
+}
+
 }  // namespace
+
+void add_row_holds(sqlite3* connection) {
+  const int code = sqlite3_create_function(connection, "row_holds", 2, SQLITE_UTF8 | SQLITE_DIRECTONLY, nullptr,
+                                           say_row_holds, nullptr, nullptr);
+  if (code != SQLITE_OK) sql::raise(connection, code, "cannot add a function");
+}
 
 const std::vector<std::string>& sealed_tables() {
   static const std::vector<std::string> kNames = [] {

@@ -52,6 +52,9 @@ std::string digest_of_row(sqlite3* connection, const std::string& table, const s
 /// wrote into the file lets nobody in and rules nothing.
 bool row_holds(sqlite3* connection, const std::string& table, const std::string& uuid);
 
+/// The same for queries: row_holds(TABLE, UUID), 1 or 0.
+void add_row_holds(sqlite3* connection);
+
 /// Problems between rows and trail, one line each. Rows that went by a recorded erasure are none.
 std::vector<std::string> check_sealed_rows(sqlite3* connection);
 

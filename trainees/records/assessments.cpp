@@ -343,7 +343,7 @@ std::vector<VerdictOverride> AssessmentStore::overrides_of(const std::string& at
   std::vector<VerdictOverride> verdicts;
   sql::Statement rows(database_->connection(),
                       "SELECT o.uuid, author, printed, reason, utc, passed FROM verdict_override o JOIN attempt a ON "
-                      "a.id = o.attempt_id WHERE a.uuid = ?" +
+                      "a.id = o.attempt_id WHERE a.uuid = ? AND row_holds('verdict_override', o.uuid)" +
                           newest_first("verdict_override", "o", "attempt_id"));
   rows.bind(attempt_uuid);
   while (rows.step())

@@ -135,6 +135,8 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
       out.in_question = "the attempt that it cites is no longer the one that was certified";
     out.attempts.push_back(std::move(one));
   }
+  if (!row_holds(connection, "certificate", certificate.uuid))
+    out.in_question = "it is not signed with the station's key, or was changed since";
   if (out.in_question.empty()) out.in_question = words_of(doubts, out.cited, out.attempts.size());
   return out;
 }

@@ -1,6 +1,7 @@
 #include "trainees/records/signing.h"
 
 #include "haptics/input_error.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/demo_record.h"
 #include "trainees/store/sqlite_handle.h"
@@ -21,6 +22,7 @@ bool given_by_another(sqlite3* connection, const std::string& account) {
 std::string why_no_signature(const Database& database, const std::string& account_uuid) {
   if (is_demo(database)) return "";
   sqlite3* connection = database.connection();
+  if (const std::string lost = lost_key(connection); !lost.empty()) return lost;
   if (!account_uuid.empty())
     return given_by_another(connection, account_uuid)
                ? "your password was given to you by somebody else, who knows it too: set your own first"

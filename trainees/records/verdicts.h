@@ -1,8 +1,9 @@
 // Whether an attempt passed: the one place that decides it.
 //
 // The score has a verdict of its own (score.passed), and people may decide otherwise (verdict_override): the newest
-// decision by the audit trail, not by a clock, holds wherever passes count. What the device ended (fault, void) is
-// never passed. The score itself never changes. Thread: that of the Database.
+// decision by the audit trail, not by a clock, holds wherever passes count; one whose row is not as its signed entry
+// says is none. What the device ended (fault, void) is never passed. The score itself never changes. Thread: that of
+// the Database.
 #pragma once
 
 #include <cstdint>

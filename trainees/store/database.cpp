@@ -114,6 +114,7 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, std
                "PRAGMA secure_delete = ON");  // what an erasure takes away is overwritten
   sql::keep_statements(connection_.get());
   add_cap_sentence(connection_.get());
+  add_row_holds(connection_.get());
   anchor_beginning();
   if (meddling_schema(connection_.get(), migrations_).empty())
     recovered_ = recover_dead_attempts(connection_.get(), file_);

@@ -134,13 +134,14 @@ void note_migration(sqlite3* connection, int from, int to) {
     throw InputError(name_of(file) + ": is of schema " + std::to_string(from) +
                      ", and no entry names the station's key, as the first of each such record does: it was taken"
                      " away; the database was left as it was");
+  const bool lay_there = from > 0 && from < kFirstSigned && !file.empty() && fs::exists(key_path(file));
   const std::string key = file.empty() ? "" : make_station_key(file).public_key();
   if (from == 0) return append_audit(connection, kActionMade, "schema " + wanted, key);
   const std::string attempts = std::to_string(sql::query_integer(connection, "SELECT count(*) FROM attempt"));
   const std::string head = sql::query_text(
       connection, "SELECT row_hash FROM attempt WHERE row_hash IS NOT NULL ORDER BY chain_position DESC LIMIT 1");
   append_audit(connection, kActionMigrated, "schema " + std::to_string(from) + " to " + wanted,
-               attempts + " attempts, head " + (head.empty() ? "none" : head));
+               attempts + " attempts, head " + (head.empty() ? "none" : head) + (lay_there ? kKeyLayThere : ""));
   if (announced_keys(connection).empty() && !key.empty()) append_audit(connection, kActionKey, kActionKey, key);
 }
 

@@ -48,6 +48,22 @@ class Standing : public testing::Test {
   std::vector<AttemptId> attempts_;
 };
 
+/// On paper it would be as good as any.
+TEST_F(Standing, OfOneThatSomebodyWroteIntoTheFileIsInQuestion) {
+  Certificate given = certify_with();
+  ASSERT_EQ(doubt(given), "");
+  given.uuid = "0190aaaa-0000-7000-8000-000000000001";
+  sql::execute(
+      database_.connection(),
+      ("INSERT INTO certificate (uuid, trainee_id, exercise_id, level, rule_version, evidence, author, printed,"
+       " utc) SELECT '" +
+       given.uuid +
+       "', trainee_id, exercise_id, level, rule_version, evidence, author, printed, utc FROM"
+       " certificate")
+          .c_str());
+  EXPECT_NE(doubt(given).find("not signed with the station's key"), std::string::npos);
+}
+
 TEST_F(Standing, IsThatOfTheAttemptsOnItsCurve) {
   const Certificate given = certify_with();
   attempt(95);

@@ -2,6 +2,7 @@
 #include "trainees/records/verdicts.h"
 
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/progress/learning_curve.h"
 #include "trainees/progress/unlock.h"
 #include "trainees/records/cohort.h"
@@ -75,6 +76,11 @@ void redate(Database& database, const std::string& by, const std::string& uuid) 
                 "' || substr(subject, 5) WHERE subject = (SELECT uuid FROM verdict_override" + of_by +
                 "); UPDATE verdict_override SET uuid = '" + uuid + "' || substr(uuid, 5)" + of_by)
                    .c_str());
+  const std::string given = sql::query_text(database.connection(), "SELECT uuid FROM verdict_override" + of_by);
+  sql::Statement(database.connection(), "UPDATE audit SET detail = ? WHERE subject = ?")
+      .bind(digest_of_row(database.connection(), "verdict_override", given))
+      .bind(given)
+      .run();
 }
 
 TEST_F(Verdicts, TheLastOneHoldsThoughTheClockWasSetBack) {
@@ -105,6 +111,22 @@ TEST_F(Verdicts, TheTrailOrdersWhatAnOlderProgramWroteUnderAClockThatWasSetBack)
                "UPDATE audit SET actor = 'centre' WHERE position = (SELECT max(position) FROM audit)");
   EXPECT_EQ(assessments_.overrides_of(id.uuid).front().printed, "Dr A")
       << "of one that came from elsewhere the UUID says when, the same everywhere";
+}
+
+/// Else whoever may write the file decides in anybody's name, until somebody checks the record.
+TEST_F(Verdicts, ADecisionThatSomebodyWroteIntoTheFileCountsNowhere) {
+  const AttemptId one = attempt(60);
+  sql::execute(database_.connection(),
+               "INSERT INTO verdict_override (uuid, attempt_id, row_hash, author, printed, passed, reason, utc) SELECT"
+               " '0190aaaa-0000-7000-8000-000000000001', id, row_hash, '', 'Dr A', 1, 'Seen by me: clean work', '' FROM"
+               " attempt");
+  EXPECT_FALSE(summary(one).passed);
+  EXPECT_FALSE(verdict_of(database_, store_.load(one.row)).passed);
+  EXPECT_TRUE(newest_decisions(database_).empty());
+  EXPECT_TRUE(assessments_.overrides_of(one.uuid).empty());
+  decide(one, true, "Dr B");
+  EXPECT_TRUE(summary(one).passed);
+  EXPECT_EQ(summary(one).decided_by, "Dr B");
 }
 
 TEST_F(Verdicts, CountsOfPassesFollow) {

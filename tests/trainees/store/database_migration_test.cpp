@@ -12,6 +12,8 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "tests/trainees/store/next_schema.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::database_migration_test {
@@ -42,6 +44,8 @@ class OldStore : public TemporaryFolder {
   fs::path file_;
 };
 
+using OldestStore = TemporaryFolder;
+
 TEST_F(OldStore, EveryAttemptStaysAndTheCutOffOnesAreMarked) {
   Database database = open_by_next_program(file_);
   EXPECT_EQ(database.migration().from, kNow);
@@ -67,6 +71,25 @@ TEST_F(OldStore, TheTrailSaysWhatWasThereBefore) {
   EXPECT_EQ(detail.find("7 attempts, head "), 0u) << detail;
   EXPECT_EQ(sql::query_text(database.connection(), "SELECT subject FROM audit WHERE action = 'schema migrated'"),
             "schema " + std::to_string(kNow) + " to " + std::to_string(kNext));
+}
+
+/// Nothing signed is older than its key: a record of before signatures, beside a key, was perhaps put there.
+TEST_F(OldestStore, IsToldWhereAKeyLayBesideItAlready) {
+  const auto remarks_of = [&](const char* name, bool key) {
+    const fs::path file = folder_ / name;
+    const Migration first[] = {{1, shipped_migrations().front().sql}};
+    sqlite3* raw = nullptr;
+    sqlite3_open(file.c_str(), &raw);
+    migrate(raw, "", first);
+    sqlite3_close(raw);
+    if (key) write_station_key(file, SigningKey::make());
+    const Database database(file);
+    return audit_remarks(database.connection());
+  };
+  EXPECT_EQ(remarks_of("old.db", false), std::vector<std::string>{});
+  const auto told = remarks_of("put_in.db", true);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("the station's key lay there already"), std::string::npos) << told[0];
 }
 
 TEST_F(OldStore, TheBackupIsTheOldDatabaseWhole) {

@@ -150,6 +150,11 @@ std::string title(const AttemptView& view, const Frame& frame) {
 
 std::string sign_off_section(const AttemptView& view, const Frame& frame) {
   std::string out = signatures(view, frame.demo);
+  if (view.unsigned_words)
+    out = "<p class=\"warning\">" + shape("integrity") +
+          "A signature, decision, rating or note of this attempt is not signed with the station's key, or was changed "
+          "since: whoever may write the file can have put it in. trocar db check names it.</p>" +
+          out;
   if (view.overrides.size() > 1) {
     out += "<ul>";
     for (const VerdictOverride& o : view.overrides)

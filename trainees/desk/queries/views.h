@@ -213,6 +213,7 @@ struct AttemptView {
   std::vector<VerdictOverride> overrides = {};  ///< newest first
   std::vector<Rating> ratings = {};
   std::vector<Note> notes = {};
+  bool unsigned_words = false;  ///< one of these four, or a decision, is not signed by the station or was changed since
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
   std::vector<CitedCertificate> certificates =

@@ -29,6 +29,14 @@ TEST(AttemptPage, IsSoundAndHasItsParts) {
   EXPECT_EQ(page.all("svg", "square").size(), 6U);  // three projections, three maps
 }
 
+TEST(AttemptPage, WhatIsNotSignedIsToldAboveWhatPeopleSaid) {
+  AttemptView view = sample_attempt();
+  const char* const told = "note of this attempt is not signed";
+  EXPECT_EQ(attempt_page(view, sample_frame()).find(told), std::string::npos);
+  view.unsigned_words = true;
+  EXPECT_NE(attempt_page(view, sample_frame()).find(told), std::string::npos);
+}
+
 TEST(AttemptPage, VerdictComesFirstWithItsOneReason) {
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   const auto band = page.all("section", "verdict");
