@@ -259,8 +259,14 @@ std::string key_of_attempt(sqlite3* connection, const std::string& uuid) {
 bool entry_signed(sqlite3* connection, std::int64_t position) {
   const std::string holder = key_at(connection, position);
   if (holder.empty()) return true;
-  sql::Statement row(connection, "SELECT row_hash, signature FROM audit WHERE position = ?");
-  return row.bind(position).step() && held_before(holder, row.text(0), row.text(1));
+  sql::Statement row(connection,
+                     "SELECT prev_hash, utc, actor, action, subject, detail, row_hash, signature FROM audit"
+                     " WHERE position = ?");
+  if (!row.bind(position).step()) return false;
+  // The signature is of the hash: what the entry says must be what was hashed.
+  const std::string hash =
+      hash_of(row.text(0), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
+  return hash == row.text(6) && held_before(holder, hash, row.text(7));
 }
 
 std::string audit_hash(sqlite3* connection, std::int64_t position) {

@@ -64,7 +64,7 @@ std::string key_at(sqlite3* connection, std::int64_t position);
 /// The same at the beginning of the attempt; "" where no entry tells of it.
 std::string key_of_attempt(sqlite3* connection, const std::string& uuid);
 
-/// Whether the station's key at that entry has signed it, or it is older than the first.
+/// Whether the station's key at that entry has signed what it says, or it is older than the first.
 bool entry_signed(sqlite3* connection, std::int64_t position);
 
 /// What the station's key signs of an entry.

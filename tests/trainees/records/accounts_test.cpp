@@ -3,6 +3,7 @@
 
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
@@ -211,6 +212,19 @@ TEST_F(AccountsOnDisk, AnAccountUnderAKeyThatSomebodyAnnouncedSignsNobodyIn) {
   EXPECT_FALSE(accounts.verify("mallory", kPassword));
   accounts.add("i.adler", "Ida Adler", Role::kAdministrator, "", kPassword, "");
   EXPECT_TRUE(accounts.verify("i.adler", kPassword)) << "the station goes on";
+}
+
+/// The signature is of a hash, and the hash of what the entry says.
+TEST_F(AccountsOnDisk, ASignedEntryThatSomebodyChangedSignsNobodyIn) {
+  const std::filesystem::path file = folder_ / "t.db";
+  Database database(file);
+  AccountStore accounts(database);
+  const Account made = accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  ASSERT_EQ(run_without_triggers(file, "UPDATE account SET role = 'administrator'"), "");
+  const std::string digest = digest_of_row(database.connection(), "account", made.uuid);
+  ASSERT_EQ(run_without_triggers(file, "UPDATE audit SET detail = '" + digest + "' WHERE action = 'account added'"),
+            "");
+  EXPECT_FALSE(accounts.verify("i.adler", kPassword));
 }
 
 /// Passwords that somebody emptied, rows that somebody took away: what accounts close stays closed.
