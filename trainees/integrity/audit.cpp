@@ -3,8 +3,10 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <mutex>
+#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -23,10 +25,13 @@ std::string hash_of(const std::string& previous, std::int64_t position, const st
                           "\n" + action + "\n" + subject + "\n" + detail);
 }
 
-void check_links(sqlite3* connection, std::vector<std::string>& problems) {
+/// @param up_to entry, as far as it is looked at.
+void check_links(sqlite3* connection, std::vector<std::string>& problems,
+                 std::int64_t up_to = std::numeric_limits<std::int64_t>::max()) {
   sql::Statement rows(connection,
                       "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash FROM audit"
-                      " ORDER BY position");
+                      " WHERE position <= ? ORDER BY position");
+  rows.bind(up_to);
   std::string previous;
   std::int64_t expected = 1;
   while (rows.step()) {
@@ -149,15 +154,44 @@ bool held_before(const std::string& holder, const std::string& row_hash, const s
   return true;
 }
 
-/// The keys that count: those up to the one beside the database, where that is there. What somebody announced after it
-/// is not the station's.
+/// Whether that key has signed what the entry says.
+bool signed_by(sqlite3* connection, std::int64_t position, const std::string& key) {
+  sql::Statement row(connection,
+                     "SELECT prev_hash, utc, actor, action, subject, detail, row_hash, signature FROM audit"
+                     " WHERE position = ?");
+  if (!row.bind(position).step()) return false;
+  // The signature is of the hash: what the entry says must be what was hashed.
+  const std::string hash =
+      hash_of(row.text(0), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
+  return hash == row.text(6) && held_before(key, hash, row.text(7));
+}
+
+/// Whether the trail up to there is whole: then who signed its last entry vouches for what the others say. Once for the
+/// same keys, for it reads all of it.
+bool whole_up_to(sqlite3* connection, const std::vector<AnnouncedKey>& keys) {
+  static std::mutex mutex;
+  static std::set<std::string> whole;
+  std::string all = audit_hash(connection, keys.back().position);
+  for (const AnnouncedKey& key : keys) all += '\n' + std::to_string(key.position) + ' ' + key.public_key;
+  const std::lock_guard lock(mutex);
+  if (whole.contains(all)) return true;
+  std::vector<std::string> problems;
+  check_links(connection, problems, keys.back().position);
+  if (problems.empty()) whole.insert(all);
+  return problems.empty();
+}
+
+/// The keys that count: of those that signed the entry that names them, the ones up to that which lies beside the
+/// database. It vouches for those before it; what somebody announced after it is not the station's.
 std::vector<AnnouncedKey> trusted_keys(sqlite3* connection) {
   std::vector<AnnouncedKey> keys = announced_keys(connection);
+  std::erase_if(keys, [&](const AnnouncedKey& key) { return !signed_by(connection, key.position, key.public_key); });
   const auto here = station_key(connection);
   if (!here) return keys;
   const std::string own = here->public_key();
   while (!keys.empty() && keys.back().public_key != own) keys.pop_back();
-  return keys.empty() ? announced_keys(connection) : keys;
+  const bool vouched = !keys.empty() && (keys.back().position == 1 || whole_up_to(connection, keys));
+  return vouched ? keys : std::vector<AnnouncedKey>{{1, own}};
 }
 
 /// Entry of the attempt that began; position 0: none.
@@ -259,14 +293,7 @@ std::string key_of_attempt(sqlite3* connection, const std::string& uuid) {
 bool entry_signed(sqlite3* connection, std::int64_t position) {
   const std::string holder = key_at(connection, position);
   if (holder.empty()) return true;
-  sql::Statement row(connection,
-                     "SELECT prev_hash, utc, actor, action, subject, detail, row_hash, signature FROM audit"
-                     " WHERE position = ?");
-  if (!row.bind(position).step()) return false;
-  // The signature is of the hash: what the entry says must be what was hashed.
-  const std::string hash =
-      hash_of(row.text(0), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
-  return hash == row.text(6) && held_before(holder, hash, row.text(7));
+  return signed_by(connection, position, holder);
 }
 
 std::string audit_hash(sqlite3* connection, std::int64_t position) {

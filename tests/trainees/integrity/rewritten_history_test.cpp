@@ -9,7 +9,10 @@
 #include "trainees/integrity/anchor_file.h"
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/sealed_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/integrity/witness.h"
+#include "trainees/records/accounts.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::rewritten_history_test {
@@ -131,6 +134,64 @@ TEST_F(RewrittenHistory, ATriggerPlantedWhileAnAttemptRunsStopsItsEnd) {
   ASSERT_EQ(run_outside(file_, "DROP TRIGGER z1"), "");
   store.finish_attempt(id, sample_result());
   EXPECT_EQ(problems_of(database), "");
+}
+
+/// The trail's first entry says whose key it is: whoever writes another there is told by the key beside the file.
+TEST_F(RewrittenHistory, UnderAnotherFirstKeyNobodySignsInWhileTheStationsOwnLiesThere) {
+  constexpr const char* kPassword = "correct horse battery";
+  {
+    Database database(file_);
+    AccountStore accounts(database);
+    accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+    ASSERT_TRUE(accounts.verify("i.adler", kPassword));
+  }
+  fs::rename(key_path(file_), folder_ / "kept");
+  const SigningKey other = SigningKey::make();
+  write_station_key(file_, other);
+  rewrite(other.public_key());
+  {
+    Database database(file_);
+    EXPECT_TRUE(AccountStore(database).verify("i.adler", kPassword)) << "it is sound in itself";
+  }
+  fs::remove(key_path(file_));
+  fs::rename(folder_ / "kept", key_path(file_));
+  Database database(file_);
+  EXPECT_FALSE(AccountStore(database).verify("i.adler", kPassword));
+}
+
+TEST_F(RewrittenHistory, WithoutItsFirstKeyNothingIsOlderThanTheStations) {
+  constexpr const char* kPassword = "correct horse battery";
+  Database database(file_);
+  AccountStore accounts(database);
+  const Account made = accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE account SET role = 'administrator'"), "");
+  const std::string digest = digest_of_row(database.connection(), "account", made.uuid);
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE audit SET detail = '" + digest +
+                                            "', signature = '' WHERE action = 'account added'; UPDATE audit SET detail"
+                                            " = '' WHERE position = 1"),
+            "");
+  EXPECT_FALSE(accounts.verify("i.adler", kPassword));
+}
+
+/// Keys that were renewed vouch for those before them.
+TEST_F(RewrittenHistory, ARenewedKeyVouchesForTheOldOneOverAWholeTrailAlone) {
+  constexpr const char* kPassword = "correct horse battery";
+  Database database(file_);
+  AccountStore accounts(database);
+  accounts.add("i.adler", "Ida Adler", Role::kInstructor, "", kPassword, "");
+  fs::remove(key_path(file_));
+  const SigningKey fresh = SigningKey::make();
+  write_station_key(file_, fresh);
+  {
+    sql::Transaction transaction(database.connection());
+    append_audit(database.connection(), kActionKey, kActionKey, fresh.public_key());
+    transaction.commit();
+  }
+  EXPECT_TRUE(accounts.verify("i.adler", kPassword));
+  ASSERT_EQ(run_without_triggers(
+                file_, "UPDATE audit SET detail = '" + SigningKey::make().public_key() + "' WHERE position = 1"),
+            "");
+  EXPECT_FALSE(accounts.verify("i.adler", kPassword));
 }
 
 /// A record that another key signed, taken back to a schema that is migrated: the station's key would announce itself.
