@@ -94,11 +94,15 @@ void check_attempts(sqlite3* connection, std::vector<std::string>& problems) {
                          " (SELECT 1 FROM audit u WHERE u.action IN (?, ?) AND u.subject = a.uuid)");
   unknown.bind(kActionFinished).bind(kActionReplicated);
   while (unknown.step()) problems.push_back("attempt " + unknown.text(0) + " has no entry");
-  sql::Statement elsewhere(connection, "SELECT uuid FROM attempt WHERE id IN (SELECT attempt_id FROM replica)");
+  // That each entry is signed is looked at for all of them.
+  sql::Statement elsewhere(connection,
+                           "SELECT uuid FROM attempt a WHERE id IN (SELECT attempt_id FROM replica) AND (NOT EXISTS"
+                           " (SELECT 1 FROM audit u WHERE u.subject = a.uuid AND u.action = ?1) OR EXISTS"
+                           " (SELECT 1 FROM audit u WHERE u.subject = a.uuid AND u.action = ?2)) ORDER BY id");
+  elsewhere.bind(kActionReplicated).bind(kActionBegun);
   while (elsewhere.step())
-    if (!came_from_elsewhere(connection, elsewhere.text(0)))
-      problems.push_back("attempt " + elsewhere.text(0) +
-                         " is kept as another station's, and no signed entry says that it came from there");
+    problems.push_back("attempt " + elsewhere.text(0) +
+                       " is kept as another station's, and no signed entry says that it came from there");
 }
 
 /// Begun attempts stay, and each that ended or runs since the first such entry has one. A row that ended was compared

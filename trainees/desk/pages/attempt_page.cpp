@@ -31,9 +31,10 @@ std::string signatures(const AttemptView& view, bool demo) {
 std::string no_signature_notice(const Frame& frame) {
   return "<p class=\"warning\">" + shape("integrity") +
          "You cannot sign, decide or certify: " + escape_html(frame.no_signature) + ". " +
-         (frame.signed_in       ? link_html("/password", "Set your own password")
-          : frame.administrator ? link_html("/accounts", "Make an account")
-                                : std::string()) +
+         (frame.no_signature.starts_with("its key") ? std::string()  // which no page can put back
+          : frame.signed_in                         ? link_html("/password", "Set your own password")
+          : frame.administrator                     ? link_html("/accounts", "Make an account")
+                                                    : std::string()) +
          "</p>";
 }
 
