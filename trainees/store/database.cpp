@@ -116,7 +116,9 @@ Database::Database(const fs::path& file, OpenMode mode, int busy_timeout_ms, std
   add_cap_sentence(connection_.get());
   add_row_holds(connection_.get());
   anchor_beginning();
-  if (meddling_schema(connection_.get(), migrations_).empty())
+  // The schema is looked at only where there is something to end.
+  if (sql::query_integer(connection_.get(), "SELECT EXISTS (SELECT 1 FROM attempt WHERE status = 'running')") != 0 &&
+      meddling_schema(connection_.get(), migrations_).empty())
     recovered_ = recover_dead_attempts(connection_.get(), file_);
   if (!recovered_.empty()) append_anchor(file_, audit_head(connection_.get()));
 }
@@ -181,6 +183,7 @@ std::string Database::head() const {
 
 void Database::renew_anchor() {
   sql::Transaction transaction(connection_.get());
+  require_own_schema();
   append_audit(connection_.get(), kActionRenewed, "", "");
   transaction.commit();
   std::error_code ignored;

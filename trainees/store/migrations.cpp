@@ -6,7 +6,6 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <system_error>
 
 #include "haptics/input_error.h"
@@ -103,18 +102,20 @@ std::map<std::string, std::string> schema_of(sqlite3* connection) {
   return parts;
 }
 
-/// What these migrations make, kept for the next time; nothing that they lead to changes.
-const std::map<std::string, std::string>& wanted_schema(std::span<const Migration> migrations) {
-  static std::mutex mutex;
-  static std::map<const Migration*, std::map<std::string, std::string>> kept;
-  const std::lock_guard lock(mutex);
-  const Migration* last = &migrations.back();
-  if (const auto known = kept.find(last); known != kept.end()) return known->second;
+std::map<std::string, std::string> schema_made_by(std::span<const Migration> migrations) {
   sqlite3* raw = nullptr;
   sqlite3_open(":memory:", &raw);
   const Connection fresh(raw);
   migrate(raw, "", migrations);
-  return kept.emplace(last, schema_of(raw)).first->second;
+  return schema_of(raw);
+}
+
+/// What these migrations make; that of the program's own is made once.
+std::map<std::string, std::string> wanted_schema(std::span<const Migration> migrations) {
+  if (migrations.data() != shipped_migrations().data() || migrations.size() != shipped_migrations().size())
+    return schema_made_by(migrations);
+  static const std::map<std::string, std::string> kShipped = schema_made_by(shipped_migrations());
+  return kShipped;
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ void note_migration(sqlite3* connection, int from, int to) {
 }
 
 std::string meddling_schema(sqlite3* connection, std::span<const Migration> migrations) {
-  const auto& wanted = wanted_schema(migrations);
+  const auto wanted = wanted_schema(migrations);
   for (const auto& [part, text] : schema_of(connection)) {
     const auto own = wanted.find(part);
     if (own == wanted.end() ? part.starts_with("trigger ") : own->second != text)
@@ -157,7 +158,7 @@ std::string meddling_schema(sqlite3* connection, std::span<const Migration> migr
 
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations) {
   const auto found = schema_of(connection);
-  const auto& wanted = wanted_schema(migrations);
+  const auto wanted = wanted_schema(migrations);
   std::vector<std::string> problems;
   for (const auto& [part, text] : wanted) {
     const auto present = found.find(part);

@@ -12,7 +12,6 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/level_reader.h"
 #include "trainees/desk/server/path_redaction.h"
-#include "trainees/integrity/sealed_rows.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/replica_facts.h"
@@ -21,19 +20,16 @@
 namespace trocar::review {
 namespace {
 
-template <class Row>
-bool all_hold(const Database& database, const char* table, const std::vector<Row>& rows) {
-  return std::all_of(rows.begin(), rows.end(),
-                     [&](const Row& row) { return row_holds(database.connection(), table, row.uuid); });
-}
-
-/// Decisions that do not hold: overrides_of() gives none of them.
-bool other_decisions(const Database& database, const std::string& attempt) {
-  sql::Statement row(
-      database.connection(),
-      "SELECT EXISTS (SELECT 1 FROM verdict_override o JOIN attempt a ON a.id = o.attempt_id WHERE a.uuid"
-      " = ? AND NOT row_holds('verdict_override', o.uuid))");
-  return row.bind(attempt).step() && row.integer(0) != 0;
+/// Whether something that people said of the attempt is not as its signed entry says.
+bool unsigned_words(const Database& database, const std::string& attempt) {
+  for (const std::string table : {"signature", "verdict_override", "rating", "note"}) {
+    sql::Statement row(database.connection(), "SELECT EXISTS (SELECT 1 FROM " + table +
+                                                  " r JOIN attempt a ON a.id = r.attempt_id WHERE a.uuid = ?1"
+                                                  " AND NOT row_holds('" +
+                                                  table + "', r.uuid))");
+    if (row.bind(attempt).step() && row.integer(0) != 0) return true;
+  }
+  return false;
 }
 
 /// Chain position of an attempt, 0 when it has none.
@@ -184,9 +180,7 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   view.ratings = assessments.ratings_of(view.result.uuid);
   for (Note& note : assessments.notes_of(view.result.trainee))
     if (note.attempt_uuid == view.result.uuid) view.notes.push_back(std::move(note));
-  view.unsigned_words =
-      !all_hold(desk.database, "signature", view.signatures) || other_decisions(desk.database, view.result.uuid) ||
-      !all_hold(desk.database, "rating", view.ratings) || !all_hold(desk.database, "note", view.notes);
+  view.unsigned_words = unsigned_words(desk.database, view.result.uuid);
   add_certificates(view, desk.database);
   view.curve_decisions = decisions_of_curve(desk.database, view.result);
   add_rivals(view, detail, is_staff(request));
