@@ -187,10 +187,12 @@ int whole_number(const std::string& text, int otherwise) {
 std::vector<CohortLine> lines_of(Desk& desk, const ProgressRules& rules, const CohortFilter& filter,
                                  const std::string& now_utc) {
   std::vector<CohortLine> lines;
-  if (desk.memory && !filter.deactivated) lines = filtered(desk.memory->lines(desk.database, now_utc), filter);
+  // One person at one exercise is a third of the work of everybody: an attempt's page does not wait for the cohort.
+  const bool few = !filter.trainee.empty() && !filter.exercise.empty();
+  const bool kept = desk.memory && !filter.deactivated && (!few || desk.memory->fresh(desk.database, now_utc));
+  if (kept) lines = filtered(desk.memory->lines(desk.database, now_utc), filter);
   // What is kept leaves out who is deactivated.
-  if (!desk.memory || filter.deactivated || (lines.empty() && !filter.trainee.empty()))
-    lines = cohort_lines(desk.database, rules, filter, now_utc);
+  if (!kept || (lines.empty() && !filter.trainee.empty())) lines = cohort_lines(desk.database, rules, filter, now_utc);
   LevelReader levels(desk);
   for (CohortLine& line : lines) {
     if (!line.harm) continue;

@@ -26,11 +26,15 @@ bool lets_through(const CohortFilter& filter, const CohortLine& line) {
 
 }  // namespace
 
+DeskMemory::Key DeskMemory::key_now(Database& database, const std::string& now_utc) {
+  return {sql::query_integer(database.connection(), "PRAGMA data_version"), sql::changes_of(database.connection()),
+          now_utc.substr(0, 16)};
+}
+
 const std::vector<CohortLine>& DeskMemory::lines(Database& database, const std::string& now_utc) {
   // Before rows and rules are read: what is committed meanwhile makes them old at the next call.
-  Key key{sql::query_integer(database.connection(), "PRAGMA data_version"), sql::changes_of(database.connection()),
-          now_utc.substr(0, 16)};
-  if (key_ && *key_ == key) return lines_;
+  Key key = key_now(database, now_utc);
+  if (key_ == key) return lines_;
   key_.reset();
   lines_ = cohort_lines(database, rules_in_force(database), {}, now_utc);
   key_ = std::move(key);

@@ -19,6 +19,8 @@ class DeskMemory {
  public:
   /// As cohort_lines() gives them by the rules in force, without a filter. Good until the next call.
   const std::vector<CohortLine>& lines(Database& database, const std::string& now_utc);
+  /// Whether the next call of lines() has nothing to read.
+  bool fresh(Database& database, const std::string& now_utc) const { return key_ == key_now(database, now_utc); }
   int made() const { return made_; }
 
  private:
@@ -27,6 +29,8 @@ class DeskMemory {
     std::string minute;
     bool operator==(const Key&) const = default;
   };
+  static Key key_now(Database& database, const std::string& now_utc);
+
   std::optional<Key> key_ = {};
   std::vector<CohortLine> lines_ = {};
   int made_ = 0;

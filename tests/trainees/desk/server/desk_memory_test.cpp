@@ -1,12 +1,16 @@
 // What a page thread keeps is what the database says, whoever wrote last.
 #include "trainees/desk/server/desk_memory.h"
 
+#include <sqlite3.h>
+
 #include <algorithm>
 #include <tuple>
 
 #include "tests/trainees/records/cohort_samples.h"
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/routes/route.h"
+#include "trainees/integrity/anchored_transaction.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
@@ -47,8 +51,11 @@ class DeskMemoryTest : public TemporaryFolder {
   void expect_fresh(const std::string& after) {
     EXPECT_EQ(said(lines()), said(cohort_lines(database_, rules_in_force(database_), {}, kNow))) << after;
   }
+  Desk desk() {
+    return {database_, {}, false, std::shared_ptr<DeskMemory>(&memory_, [](DeskMemory*) {})};
+  }
   std::string page() {
-    Desk desk{database_, {}, false, std::shared_ptr<DeskMemory>(&memory_, [](DeskMemory*) {})};
+    Desk desk = this->desk();
     static const std::vector<Route> routes = desk_routes();
     Request request;
     request.account = Account{};
@@ -109,6 +116,40 @@ TEST_F(DeskMemoryTest, AnotherConnectionsRollbackChangesNothing) {
   }
   lines();
   EXPECT_EQ(memory_.made(), 1);
+}
+
+TEST_F(DeskMemoryTest, OnePersonAtOneExerciseDoesNotWaitForTheCohort) {
+  CohortFilter one;
+  one.trainee = lines().front().trainee;
+  one.exercise = lines().front().key.exercise_id;
+  store_attempt(other_, sample_start("T-new"), sample_result(88));
+  Desk asked = desk();
+  const auto narrow = lines_of(asked, rules_in_force(database_), one, kNow);
+  EXPECT_EQ(memory_.made(), 1);
+  ASSERT_FALSE(narrow.empty());
+  lines();
+  EXPECT_EQ(said(narrow), said(lines_of(asked, rules_in_force(database_), one, kNow)));
+  EXPECT_EQ(memory_.made(), 2);
+}
+
+// A question that reads the trail from its beginning is asked by every page, and costs what years have written.
+TEST_F(DeskMemoryTest, AKeptPageCostsTheSameHoweverLongTheTrailIs) {
+  const auto steps = [&] {
+    page();  // kept from here on
+    int count = 0;
+    sqlite3_progress_handler(
+        database_.connection(), 1, [](void* n) { return 0 * ++*static_cast<int*>(n); }, &count);
+    page();
+    sqlite3_progress_handler(database_.connection(), 0, nullptr, nullptr);
+    return count;
+  };
+  const int before = steps();
+  {
+    AnchoredTransaction transaction(database_);
+    for (int i = 0; i < 1000; ++i) append_audit(database_.connection(), "recording read", "attempt", "");
+    transaction.commit();
+  }
+  EXPECT_LT(steps(), before + 100);
 }
 
 TEST_F(DeskMemoryTest, NewRulesJudgeAnew) {
