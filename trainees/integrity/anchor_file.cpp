@@ -1,10 +1,10 @@
 #include "trainees/integrity/anchor_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -39,6 +39,16 @@ std::string problem_of(const AnchorLine& line, sqlite3* connection) {
   return known == line.head.row_hash ? "" : entry + " is not the one that was anchored";
 }
 
+/// Open for appending or reading; a link, pipe or device in its place is none, and nobody waits for it.
+/// @returns -1 where there is none.
+int opened_anchor(const fs::path& database, int flags) {
+  const int file = ::open(anchor_path(database).c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600);
+  struct stat about {};
+  if (file < 0 || (::fstat(file, &about) == 0 && S_ISREG(about.st_mode))) return file;
+  ::close(file);
+  return -1;
+}
+
 }  // namespace
 
 fs::path anchor_path(const fs::path& database) { return database.string() + ".anchor"; }
@@ -46,7 +56,7 @@ fs::path anchor_path(const fs::path& database) { return database.string() + ".an
 void append_anchor(const fs::path& database, const AuditHead& head) {
   if (database.empty()) return;
   std::string line = std::to_string(head.position) + " " + head.row_hash + " " + utc_now() + "\n";
-  const int file = ::open(anchor_path(database).c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  const int file = opened_anchor(database, O_RDWR | O_CREAT | O_APPEND);
   if (file < 0) return;
   char last = '\n';
   const off_t size = ::lseek(file, 0, SEEK_END);
@@ -57,8 +67,13 @@ void append_anchor(const fs::path& database, const AuditHead& head) {
 }
 
 std::string read_anchor(const fs::path& database) {
-  std::ifstream in(anchor_path(database), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  const int file = opened_anchor(database, O_RDONLY);
+  if (file < 0) return "";
+  std::string text;
+  char bytes[65536];
+  for (ssize_t n = 0; (n = ::read(file, bytes, sizeof bytes)) > 0;) text.append(bytes, static_cast<std::size_t>(n));
+  ::close(file);
+  return text;
 }
 
 void write_anchor(const fs::path& database, const std::string& text) {
@@ -68,7 +83,7 @@ void write_anchor(const fs::path& database, const std::string& text) {
 std::vector<std::string> check_anchor(const fs::path& database, sqlite3* connection) {
   if (database.empty() || audit_head(connection).position == 0) return {};
   const std::string name = anchor_path(database).filename().string();
-  std::ifstream in(anchor_path(database));
+  std::istringstream in(read_anchor(database));
   std::vector<std::string> problems;
   std::int64_t first = 0;
   for (std::string text; std::getline(in, text) && !in.eof();) {  // a last line without its end was cut off by a crash

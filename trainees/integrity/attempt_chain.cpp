@@ -93,6 +93,7 @@ Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) 
   if (last.step()) {
     link.position = last.integer(0) + 1;
     link.previous = last.text(1);
+    require_hash(link.previous, "the newest attempt");
   }
   return link;
 }
@@ -165,6 +166,17 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
 bool attempt_holds(sqlite3* connection, std::int64_t attempt) {
   sql::Statement row(connection, std::string(kLinks) + " AND a.id = ?");
   return row.bind(attempt).step() && row_hash(connection, link_of(row)) == row.text(4);
+}
+
+bool attempt_vouched(sqlite3* connection, std::int64_t attempt) {
+  if (!attempt_holds(connection, attempt)) return false;
+  sql::Statement entry(connection,
+                       "SELECT u.position FROM attempt a JOIN audit u ON u.subject = a.uuid AND u.action IN (?, ?)"
+                       " AND u.detail = a.row_hash WHERE a.id = ?");
+  entry.bind(kActionFinished).bind(kActionReplicated).bind(attempt);
+  while (entry.step())
+    if (entry_signed(connection, entry.integer(0))) return true;
+  return false;
 }
 
 std::vector<std::string> check_chain(sqlite3* connection) {

@@ -30,6 +30,8 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
 
 /// Whether the finished attempt still has the content that its row_hash was made of.
 bool attempt_holds(sqlite3* connection, std::int64_t attempt);
+/// The same, and a signed entry of the trail says so: what people put their name to.
+bool attempt_vouched(sqlite3* connection, std::int64_t attempt);
 
 /// Problems found when the whole chain is computed again, one line each.
 std::vector<std::string> check_chain(sqlite3* connection);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/store/sqlite_handle.h"
@@ -25,15 +26,31 @@ std::string hash_of(const std::string& previous, std::int64_t position, const st
                           "\n" + action + "\n" + subject + "\n" + detail);
 }
 
-/// @param up_to entry, as far as it is looked at.
-void check_links(sqlite3* connection, std::vector<std::string>& problems,
+/// The hash joins fields by line breaks: with one in a field, an entry could be read as another one.
+bool divides(const std::string& field) {
+  return std::any_of(field.begin(), field.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+}
+
+bool is_hash(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+/// Columns 1 to 6 of position, utc, actor, action, subject, detail, prev_hash.
+bool can_be_divided(const sql::Statement& row) {
+  for (int column = 1; column <= 5; ++column)
+    if (divides(row.text(column))) return false;
+  return row.text(6).empty() ? row.integer(0) == 1 : is_hash(row.text(6));
+}
+
+/// @param after, @param up_to entries between which it is looked at.
+void check_links(sqlite3* connection, std::vector<std::string>& problems, std::int64_t after = 0,
                  std::int64_t up_to = std::numeric_limits<std::int64_t>::max()) {
   sql::Statement rows(connection,
                       "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash FROM audit"
-                      " WHERE position <= ? ORDER BY position");
-  rows.bind(up_to);
-  std::string previous;
-  std::int64_t expected = 1;
+                      " WHERE position > ? AND position <= ? ORDER BY position");
+  rows.bind(after).bind(up_to);
+  std::string previous = after > 0 ? audit_hash(connection, after) : "";
+  std::int64_t expected = after + 1;
   while (rows.step()) {
     const std::int64_t position = rows.integer(0);
     const std::string name = "entry " + std::to_string(position) + " (" + rows.text(3) + ")";
@@ -41,6 +58,8 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems,
       problems.push_back("before " + name + ": entries are missing");
     else if (rows.text(6) != previous)
       problems.push_back(name + " does not follow the entry before it");
+    if (!can_be_divided(rows))
+      problems.push_back(name + " has a line break in a field, or no hash before it: it could be read as another one");
     if (hash_of(rows.text(6), position, rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.text(5)) !=
         rows.text(7)) {
       problems.push_back(name + " was changed");
@@ -161,13 +180,13 @@ bool held_before(const std::string& holder, const std::string& row_hash, const s
 /// Whether that key has signed what the entry says.
 bool signed_by(sqlite3* connection, std::int64_t position, const std::string& key) {
   sql::Statement row(connection,
-                     "SELECT prev_hash, utc, actor, action, subject, detail, row_hash, signature FROM audit"
+                     "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash, signature FROM audit"
                      " WHERE position = ?");
-  if (!row.bind(position).step()) return false;
+  if (!row.bind(position).step() || !can_be_divided(row)) return false;
   // The signature is of the hash: what the entry says must be what was hashed.
   const std::string hash =
-      hash_of(row.text(0), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
-  return hash == row.text(6) && held_before(key, hash, row.text(7));
+      hash_of(row.text(6), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
+  return hash == row.text(7) && held_before(key, hash, row.text(8));
 }
 
 /// Whether the trail up to there is whole: then who signed its last entry vouches for what the others say. Once for the
@@ -180,7 +199,7 @@ bool whole_up_to(sqlite3* connection, const std::vector<AnnouncedKey>& keys) {
   const std::lock_guard lock(mutex);
   if (whole.contains(all)) return true;
   std::vector<std::string> problems;
-  check_links(connection, problems, keys.back().position);
+  check_links(connection, problems, 0, keys.back().position);
   if (problems.empty()) whole.insert(all);
   return problems.empty();
 }
@@ -206,11 +225,11 @@ struct Beginning {
 
 /// Whether the row is still what the entry tells.
 bool row_is(sqlite3* connection, const std::string& uuid, const Beginning& began) {
-  std::string now = begun_digest(connection, uuid);
+  const std::string now = begun_digest(connection, uuid);
+  if (began.digests.size() == now.size()) return began.digests == now;  // an earlier program told the first only
+  if (!began.digests.starts_with(now + " ") || !is_hash(began.digests.substr(now.size() + 1))) return false;
   sql::Statement running(connection, "SELECT 1 FROM attempt WHERE uuid = ? AND status = 'running'");
-  const std::size_t both = began.digests.find(' ');  // an earlier program told the first only
-  if (running.bind(uuid).step() && both != std::string::npos) now += " " + running_digest(connection, uuid);
-  return began.digests.substr(0, now.size()) == now;
+  return !running.bind(uuid).step() || began.digests == now + " " + running_digest(connection, uuid);
 }
 
 /// Whether what is written now is signed with a key that the trail names.
@@ -239,6 +258,9 @@ std::string head_text(const std::string& row_hash) { return "trocar-audit-head-1
 void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
                   const std::string& actor) {
   const AuditHead head = audit_head(connection);
+  if (head.position > 0) require_hash(head.row_hash, "the trail's last entry");
+  for (const std::string& field : {action, subject, detail, actor})
+    if (divides(field)) throw InputError("audit trail, \"" + action + "\": a control character in what it is about");
   const std::string utc = utc_now();
   sql::Statement insert(connection, "INSERT INTO audit VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   const std::string hash = hash_of(head.row_hash, head.position + 1, utc, actor, action, subject, detail);
@@ -274,6 +296,17 @@ bool came_from_elsewhere(sqlite3* connection, const std::string& uuid) {
   sql::Statement entry(connection, "SELECT position FROM audit WHERE subject = ? AND action = ?");
   return !began_here(connection, uuid) && entry.bind(uuid).bind(kActionReplicated).step() &&
          entry_signed(connection, entry.integer(0));
+}
+
+void require_hash(const std::string& hash, const std::string& whose) {
+  if (!is_hash(hash)) throw InputError(whose + " has no hash: nothing is built on it; see trocar db check");
+}
+
+bool trail_whole(sqlite3* connection, std::int64_t after) {
+  std::vector<std::string> problems;
+  check_links(connection, problems, after);
+  const std::int64_t last = audit_head(connection).position;
+  return problems.empty() && (last == 0 || !signs(connection) || entry_signed(connection, last));
 }
 
 AuditHead audit_head(sqlite3* connection) {

@@ -35,11 +35,19 @@ struct AuditHead {
 };
 
 /// Adds an entry. Call inside a transaction. @param actor account's UUID of whoever did it, "trocar" for the program
-/// itself.
+/// itself. @throws InputError: a field with a control character, by which an entry could be read as another one, or a
+/// last entry whose hash is none.
 void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
                   const std::string& actor = "trocar");
 
+/// @throws InputError: what is said to be the hash of `whose` is none, so nothing can be built on it.
+void require_hash(const std::string& hash, const std::string& whose);
+
 AuditHead audit_head(sqlite3* connection);
+/// Whether the entries from there on follow one another as they were hashed, and the last is signed, where there is a
+/// key to sign with.
+/// @param after entry up to which it was looked at before, 0: all.
+bool trail_whole(sqlite3* connection, std::int64_t after);
 
 /// The entry of an attempt that begins: a row put in or changed without the key is told from one that began.
 void audit_begun(sqlite3* connection, const std::string& uuid);

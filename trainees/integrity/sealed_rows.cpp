@@ -66,6 +66,12 @@ std::string digest_of_columns(const std::string& table, const sql::Statement& ro
 
 std::string query_of(const SealedTable& table) { return "SELECT r.uuid, " + table.columns + " FROM " + table.from; }
 
+const SealedTable& table_named(const std::string& name) {
+  for (const SealedTable& table : tables())
+    if (table.name == name) return table;
+  throw InputError(name + ": no table whose rows are sealed");
+}
+
 /// Digests of the table's rows as they stand, by UUID. Rows that nothing can name are told at once.
 std::map<std::string, std::string> digests_of(sqlite3* connection, const SealedTable& table,
                                               std::vector<std::string>& problems) {
@@ -135,12 +141,12 @@ void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
 }
 
 void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
-  const auto text = [values](int which) {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_value_text(values[which]));
-    return bytes == nullptr ? std::string() : std::string(bytes);
-  };
+  const auto* table = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
   try {
-    sqlite3_result_int(context, row_holds(sqlite3_context_db_handle(context), text(0), text(1)) ? 1 : 0);
+    sqlite3_result_int(context, row_holds(sqlite3_context_db_handle(context), table == nullptr ? "" : table,
+                                          sqlite3_value_int64(values[1]))
+                                    ? 1
+                                    : 0);
   } catch (const std::exception& error) {
     sqlite3_result_error(context, error.what(), -1);
   }
@@ -179,20 +185,23 @@ std::string newest_first(const std::string& table, const std::string& row, const
          " WHERE n" + entry + ") DESC, (SELECT n.position FROM audit n WHERE n" + entry + ") DESC";
 }
 
-bool row_holds(sqlite3* connection, const std::string& table, const std::string& uuid) {
-  sql::Statement newest(connection,
-                        "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ? || ' *'"
-                        " ORDER BY position DESC LIMIT 1");
-  return newest.bind(uuid).bind(table).step() && newest.text(1) == digest_of_row(connection, table, uuid) &&
-         entry_signed(connection, newest.integer(0));
+bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row) {
+  sql::Statement content(connection, query_of(table_named(table)) + " WHERE r.id = ?");
+  if (!content.bind(row).step()) return false;
+  const std::string digest = digest_of_columns(table, content);
+  const bool account = table == kAccountTable;
+  sql::Statement entries(connection, account ? "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ?"
+                                               " ORDER BY position DESC LIMIT 1"
+                                             : "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
+  entries.bind(content.text(0)).bind(table + (account ? " *" : " added"));
+  while (entries.step())
+    if (entries.text(1) == digest && entry_signed(connection, entries.integer(0))) return true;
+  return false;
 }
 
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid) {
-  for (const SealedTable& sealed : tables()) {
-    if (sealed.name != table) continue;
-    sql::Statement row(connection, query_of(sealed) + " WHERE r.uuid = ?");
-    if (row.bind(uuid).step()) return digest_of_columns(table, row);
-  }
+  sql::Statement row(connection, query_of(table_named(table)) + " WHERE r.uuid = ?");
+  if (row.bind(uuid).step()) return digest_of_columns(table, row);
   throw InputError(named(table, uuid) + ": not in this database");
 }
 

@@ -10,6 +10,7 @@
 // later word an earlier one (newest_first(), next_row_uuid()).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,11 +49,12 @@ void seal_account(sqlite3* connection, const std::string& action, const std::str
 /// Digest of a row of a sealed table or of an account as it stands. @throws InputError: no such row.
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid);
 
-/// Whether a row of a sealed table, or an account, is as its newest entry says, and the entry signed: what somebody
-/// wrote into the file lets nobody in and rules nothing.
-bool row_holds(sqlite3* connection, const std::string& table, const std::string& uuid);
+/// Whether that very row of a sealed table is as a signed entry says (an account: as its newest entry says, and that is
+/// signed): what somebody wrote into the file lets nobody in and rules nothing. @param row its id, for an index may
+/// have been made to lead from a UUID to another row.
+bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row);
 
-/// The same for queries: row_holds(TABLE, UUID), 1 or 0.
+/// The same for queries: row_holds(TABLE, id), 1 or 0.
 void add_row_holds(sqlite3* connection);
 
 /// Problems between rows and trail, one line each. Rows that went by a recorded erasure are none.

@@ -18,6 +18,7 @@ using svg::line;
 using svg::nice_step;
 using svg::px;
 using svg::rect;
+using svg::ticks;
 
 constexpr double kWidth = 1000, kLeft = 52, kRight = 986;
 constexpr const char* kInside = "#009e73";
@@ -42,7 +43,7 @@ struct Panel {
     const auto y = [&](double shown) { return bottom - (bottom - top) * std::clamp(shown / most, 0.0, 1.0); };
     std::string out = label(kLeft, top - 8, title, "start", "font-weight=\"bold\"");
     const double step = nice_step(most, 3);
-    for (double tick = 0; tick <= most; tick += step)
+    for (const double tick : ticks(0, most, step))
       out += line(kLeft, y(tick), kRight, y(tick), "stroke=\"#000\" stroke-opacity=\"0.12\"") +
              label(kLeft - 7, y(tick) + 5, number_text(tick), "end");
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -128,10 +129,10 @@ class GripPlot {
 
   std::string axes() const {
     std::string out;
-    for (double n = 0, step = nice_step(top_n_, 5); n <= top_n_; n += step)
+    for (const double n : ticks(0, top_n_, nice_step(top_n_, 5)))
       out += line(kLeft, y(n), kRight, y(n), "stroke=\"#000\" stroke-opacity=\"0.12\"") +
              label(kLeft - 7, y(n) + 5, number_text(n), "end");
-    for (double t = 0, step = nice_step(end_s_, 10); t <= end_s_ * 1.0001; t += step)
+    for (const double t : ticks(0, end_s_ * 1.0001, nice_step(end_s_, 10)))
       out += line(x(t + start_s_), kBottom, x(t + start_s_), kBottom + 5, "stroke=\"#555\"") +
              label(x(t + start_s_), kBottom + 20, number_text(t), "middle");
     return out + label(6, kTop - 10, "grip, N") + label(kRight, kBottom + 36, "time, s", "end");

@@ -14,6 +14,7 @@ using svg::label;
 using svg::line;
 using svg::nice_step;
 using svg::px;
+using svg::ticks;
 
 constexpr double kPlotWidth = 1000, kHeight = 240, kPlotLeft = 52, kPlotRight = 986, kPlotTop = 26, kPlotBottom = 196;
 
@@ -66,10 +67,10 @@ std::string axes(double top, double t_end_s) {
   const auto x = [&](double t) { return kPlotLeft + (kPlotRight - kPlotLeft) * t / t_end_s; };
   const auto y = [&](double value) { return kPlotBottom - (kPlotBottom - kPlotTop) * value / top; };
   const double step = nice_step(top, 4), step_s = nice_step(t_end_s, 10);
-  for (double n = 0; n <= top; n += step)
+  for (const double n : ticks(0, top, step))
     out += line(kPlotLeft, y(n), kPlotRight, y(n), "stroke=\"#000\" stroke-opacity=\"0.12\"") +
            label(kPlotLeft - 7, y(n) + 5, number_text(n), "end");
-  for (double t = 0; t <= t_end_s * 1.0001; t += step_s)
+  for (const double t : ticks(0, t_end_s * 1.0001, step_s))
     out += line(x(t), kPlotBottom, x(t), kPlotBottom + 5, "stroke=\"#555\"") +
            label(x(t), kPlotBottom + 20, number_text(t), "middle");
   return out + label(kPlotRight, kPlotBottom + 40, "time, s", "end") + label(6, kPlotTop - 10, "N/m at the stylus");

@@ -34,6 +34,13 @@ double nice_step(double range, double count) {
   return 10 * power;
 }
 
+std::vector<double> ticks(double low, double high, double step) {
+  constexpr int kMost = 200;
+  std::vector<double> out;
+  for (int k = 0; k < kMost && low + k * step <= high; ++k) out.push_back(low + k * step);
+  return out;
+}
+
 std::string without_links(std::string svg) {
   for (std::size_t at = 0; (at = svg.find('<', at)) != std::string::npos; ++at) {
     if (svg.compare(at, 3, "<a ") == 0 || svg.compare(at, 3, "<a>") == 0)

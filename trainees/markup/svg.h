@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace trocar::svg {
 
@@ -15,6 +16,8 @@ std::string label(double x, double y, const std::string& words, const char* anch
 
 /// 1, 2 or 5 times a power of ten, giving about `count` steps.
 double nice_step(double range, double count);
+/// low, low + step, ... up to high, 200 at most whatever the numbers are.
+std::vector<double> ticks(double low, double high, double step);
 
 /// A whole chart as groups in place of its links, for a file by itself.
 std::string without_links(std::string svg);

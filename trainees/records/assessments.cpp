@@ -74,20 +74,40 @@ void check_rating(const RatingScale& scale, const std::string& item, double valu
   }
 }
 
+/// What people put their name to must be what the program stored: a row that was changed for a moment binds for good.
+void require_vouched(sqlite3* connection, const std::string& uuid, std::int64_t attempt, const std::string& what) {
+  if (!attempt_vouched(connection, attempt))
+    throw InputError("attempt " + uuid + ": was changed after it was finished and cannot be " + what +
+                     "; see trocar db check");
+}
+
+/// The attempts that it names are this trainee's, and as they were stored.
+void check_named(sqlite3* connection, std::int64_t trainee, const nlohmann::json& attempts) {
+  if (!attempts.is_array()) return;
+  sql::Statement row(connection, "SELECT id, trainee_id FROM attempt WHERE uuid = ?");
+  for (const nlohmann::json& one : attempts) {
+    const std::string uuid = one.is_string() ? one.get<std::string>() : "";
+    if (!row.bind(uuid).step() || row.integer(1) != trainee)
+      throw InputError("certificate: attempt " + uuid + " is none of this trainee's");
+    require_vouched(connection, uuid, row.integer(0), "certified");
+    row.run();
+  }
+}
+
 /// A certificate cites an attempt that counts as passed, whatever was decided in between.
 void check_cited(sqlite3* connection, std::int64_t trainee, const std::string& evidence) {
   const nlohmann::json json = nlohmann::json::parse(evidence, nullptr, false);
   if (!json.is_object() || !json.contains("attempt") || !json["attempt"].is_string()) return;
+  check_named(connection, trainee, nlohmann::json::array({json["attempt"]}));
+  if (json.contains("attempts")) check_named(connection, trainee, json["attempts"]);
   const std::string uuid = json["attempt"].get<std::string>();
-  sql::Statement row(connection, std::string("SELECT a.trainee_id, ") + sql::kPassed +
+  sql::Statement row(connection, std::string("SELECT ") + sql::kPassed +
                                      ", coalesce(o.printed, ''), coalesce(o.utc, '') FROM attempt a"
                                      " LEFT JOIN score s ON s.attempt_id = a.id AND s.revision = 0" +
                                      sql::decision() + " WHERE a.uuid = ?");
-  if (!row.bind(uuid).step() || row.integer(0) != trainee)
-    throw InputError("certificate: attempt " + uuid + " is none of this trainee's");
-  if (row.integer(1) != 0) return;
+  if (!row.bind(uuid).step() || row.integer(0) != 0) return;
   const std::string by =
-      row.text(2).empty() ? "" : " by decision of " + row.text(2) + " on " + row.text(3).substr(0, 10);
+      row.text(1).empty() ? "" : " by decision of " + row.text(1) + " on " + row.text(2).substr(0, 10);
   throw InputError("certificate: attempt " + uuid + " is not passed" + by + ", so it is no evidence; cite one that is");
 }
 
@@ -105,7 +125,8 @@ constexpr const char* kCertificates =
     "SELECT c.uuid, t.code, exercise_id, level, rule_version, evidence, c.author, c.printed, c.utc, coalesce(r.utc, "
     "''),"
     " coalesce(r.reason, '') FROM certificate c JOIN known_trainee t ON t.id = c.trainee_id"
-    " LEFT JOIN revocation r ON r.certificate_id = c.id WHERE (?1 = '' OR t.code = ?1 COLLATE NOCASE) ORDER BY c.uuid "
+    " LEFT JOIN revocation r ON r.certificate_id = c.id AND row_holds('revocation', r.id) WHERE (?1 = '' OR t.code = "
+    "?1 COLLATE NOCASE) ORDER BY c.uuid "
     "DESC";
 
 /// A form that was sent twice, or from two tabs: inside the transaction, so that only one of them can be first.
@@ -122,7 +143,8 @@ void refuse_second(sqlite3* connection, std::int64_t attempt, const std::string&
 void refuse_second_certificate(sqlite3* connection, std::int64_t trainee, const Certificate& wanted) {
   sql::Statement row(connection,
                      "SELECT printed, utc FROM certificate c WHERE trainee_id = ? AND exercise_id = ? AND level = ?"
-                     " AND NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id)");
+                     " AND NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id AND"
+                     " row_holds('revocation', r.id))");
   if (!row.bind(trainee).bind(wanted.exercise_id).bind(wanted.level).step()) return;
   throw InputError("trainee \"" + wanted.trainee + "\": holds a certificate for " + wanted.exercise_id + " at level " +
                    wanted.level + " already, by " + row.text(0) + " on " + row.text(1) + "; nothing was written");
@@ -270,10 +292,7 @@ Signature AssessmentStore::sign(const std::string& attempt_uuid, const std::stri
   AnchoredTransaction transaction(*database_);
   require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
-  if (!attempt_holds(connection, attempt.id)) {
-    throw InputError("attempt " + attempt_uuid +
-                     ": was changed after it was finished and cannot be signed; see trocar db check");
-  }
+  require_vouched(connection, attempt_uuid, attempt.id, "signed");
   refuse_second(connection, attempt.id, meaning, author);
   const Signature signature{next_row_uuid(connection, "signature"),
                             attempt.row_hash,
@@ -323,6 +342,7 @@ VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uui
     throw InputError("attempt " + attempt_uuid +
                      ": was ended by the device or is void; it counts for nothing, so there is nothing to decide");
   }
+  require_vouched(connection, attempt_uuid, attempt.id, "decided");
   sql::Statement insert(
       connection,
       "INSERT INTO verdict_override (uuid, attempt_id, row_hash, author, printed, passed, reason, utc)"
@@ -343,7 +363,7 @@ std::vector<VerdictOverride> AssessmentStore::overrides_of(const std::string& at
   std::vector<VerdictOverride> verdicts;
   sql::Statement rows(database_->connection(),
                       "SELECT o.uuid, author, printed, reason, utc, passed FROM verdict_override o JOIN attempt a ON "
-                      "a.id = o.attempt_id WHERE a.uuid = ? AND row_holds('verdict_override', o.uuid)" +
+                      "a.id = o.attempt_id WHERE a.uuid = ? AND row_holds('verdict_override', o.id)" +
                           newest_first("verdict_override", "o", "attempt_id"));
   rows.bind(attempt_uuid);
   while (rows.step())

@@ -77,7 +77,7 @@ std::string identity_of(sqlite3* connection, const std::string& uuid, const std:
   const nlohmann::ordered_json said{{"attempt", row.text(0)},  {"trainee", row.text(1)}, {"exercise", row.text(2)},
                                     {"ruleset", row.text(3)},  {"level", row.text(4)},   {"seed", row.integer(5)},
                                     {"board", row.integer(6)}, {"hand", row.text(7)},    {"key", public_key}};
-  return said.dump();
+  return said.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // what no text has changes it
 }
 
 }  // namespace trocar

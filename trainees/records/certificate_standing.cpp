@@ -135,7 +135,15 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
       out.in_question = "the attempt that it cites is no longer the one that was certified";
     out.attempts.push_back(std::move(one));
   }
-  if (!row_holds(connection, "certificate", certificate.uuid))
+  for (const std::string& named : evidence.attempts.value_or(std::set<std::string>{})) {
+    sql::Statement other(connection,
+                         "SELECT 1 FROM attempt a JOIN certificate c ON c.uuid = ? WHERE a.uuid = ? AND"
+                         " a.trainee_id <> c.trainee_id");
+    if (other.bind(certificate.uuid).bind(named).step())
+      out.in_question = "attempt " + named + ", on which it stands, is another person's";
+  }
+  sql::Statement own(connection, "SELECT row_holds('certificate', id) FROM certificate WHERE uuid = ?");
+  if (!own.bind(certificate.uuid).step() || own.integer(0) == 0)
     out.in_question = "it is not signed with the station's key, or was changed since";
   if (out.in_question.empty()) out.in_question = words_of(doubts, out.cited, out.attempts.size());
   return out;

@@ -11,9 +11,9 @@ WITH finished AS (
   SELECT a.id, a.trainee_id, a.exercise_id, a.exercise_version, a.ruleset_sha256, a.level, a.started_utc,
          s.id AS score_id, s.value AS score, a.status IN ('completed', 'timeout')  AS is_graded, )sql";
 constexpr const char* kRows = R"sql( WHERE a.status <> 'running'
-     AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')
+     AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training' AND row_holds('erasure', id))
      AND (?3 <> '' OR ?4 OR a.trainee_id NOT IN (SELECT trainee_id FROM
-       (SELECT trainee_id, active, max(uuid) FROM standing GROUP BY trainee_id) WHERE active = 0))
+       (SELECT trainee_id, active, max(uuid) FROM standing WHERE row_holds('standing', id) GROUP BY trainee_id) WHERE active = 0))
 )
 SELECT t.code, f.exercise_id, f.level, count(*), sum(is_graded), sum(passed),
        max(CASE WHEN is_graded THEN score END),

@@ -43,7 +43,7 @@ std::vector<Consent> ConsentStore::of(const std::string& trainee) const {
   std::vector<Consent> consents;
   sql::Statement rows(database_->connection(),
                       "SELECT c.uuid, purpose, text, author, utc, given FROM consent c JOIN person p ON p.trainee_id = "
-                      "c.trainee_id WHERE p.code = ?" +
+                      "c.trainee_id WHERE p.code = ? AND row_holds('consent', c.id)" +
                           newest_first("consent", "c", "trainee_id"));
   rows.bind(trainee);
   while (rows.step())

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 64, kLongestText = 1000000;
 
-constexpr const char* kCurricula = "SELECT uuid, name, sha256, toml, author, utc, version FROM curriculum";
+constexpr const char* kCurricula = "SELECT uuid, name, sha256, toml, author, utc, version, id FROM curriculum";
 
 Curriculum curriculum_of(const sql::Statement& row) {
   return {
@@ -125,7 +125,7 @@ std::optional<Curriculum> CurriculumStore::newest(const std::string& name) const
                      std::string(kCurricula) + " WHERE name = ? ORDER BY version DESC, uuid DESC");
   row.bind(name);
   while (row.step())  // a row that came in by another way rules nothing, and hides none that does
-    if (row_holds(database_->connection(), "curriculum", row.text(0))) return curriculum_of(row);
+    if (row_holds(database_->connection(), "curriculum", row.integer(7))) return curriculum_of(row);
   return std::nullopt;
 }
 

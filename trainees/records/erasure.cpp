@@ -128,20 +128,32 @@ std::vector<fs::path> files_of(const KeptRecording& recording) {
   return files;
 }
 
-/// Only what is known to be the attempt's: a name given by --record may stand for another file by now.
-void remove_recording(const KeptRecording& recording, const fs::path& film, ErasureReport& report) {
+/// As the program makes them: nothing that leads out of a folder.
+bool is_name_of_attempt(const std::string& uuid) {
+  return uuid.size() == 36 && uuid.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
+/// Only what is known to be the attempt's: the row that names it may have been changed, and a name given by --record
+/// may stand for another file by now.
+void remove_recording(const fs::path& database, const KeptRecording& recording, const fs::path& film,
+                      ErasureReport& report) {
   std::error_code error;
+  if (!is_name_of_attempt(recording.uuid)) {
+    report.left.push_back(recording.file.string() + ": attempt " + recording.uuid + " has no name of trocar's");
+    return;
+  }
   if (fs::remove(film, error))
     report.recordings.push_back(film);
   else if (error)
     report.left.push_back(film.string() + ": cannot be removed: " + error.message());
   if (!fs::exists(recording.file, error)) return;
-  if (recording.file.stem() != recording.uuid && digest::of_readable_file(recording.file) != recording.sha256) {
+  const bool own_name =
+      recording.file.stem() == recording.uuid && recording.file.parent_path() == recordings_folder(database);
+  if (!own_name && digest::of_readable_file(recording.file) != recording.sha256) {
     report.left.push_back(recording.file.string() + ": is not what attempt " + recording.uuid +
                           " recorded; it was left");
     return;
   }
-  const bool own_name = recording.file.stem() == recording.uuid;
   fs::path stop = recording.file;
   stop.replace_extension(".safety.csv");
   for (const fs::path& file : own_name ? files_of(recording) : std::vector<fs::path>{recording.file, stop}) {
@@ -221,7 +233,7 @@ ErasureReport erase_trainee(Database& database, const std::string& trainee, Eras
   }
   const fs::path films = database.file().parent_path() / (database.file().stem().string() + ".films");  // the desk's
   for (const KeptRecording& recording : recordings)
-    remove_recording(recording, films / (recording.uuid + ".mp4"), report);
+    remove_recording(database.file(), recording, films / (recording.uuid + ".mp4"), report);
   empty_log(database, report);
   return report;
 }

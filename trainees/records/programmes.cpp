@@ -16,7 +16,8 @@ constexpr const char* kAssignments =
     "SELECT a.uuid, a.programme, coalesce(t.code, ''), a.group_name, a.due, a.printed, a.utc, coalesce(w.utc, ''),"
     " coalesce(w.printed, ''), coalesce(w.reason, '') FROM assignment a LEFT JOIN known_trainee t ON t.id = "
     "a.trainee_id"
-    " LEFT JOIN withdrawal w ON w.assignment_id = a.id";
+    " LEFT JOIN withdrawal w ON w.assignment_id = a.id AND row_holds('withdrawal', w.id)"
+    " WHERE row_holds('assignment', a.id)";
 
 Assignment assignment_of(const sql::Statement& row) {
   return {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4),
@@ -36,10 +37,9 @@ void insert_withdrawal(sqlite3* connection, const std::string& assignment, const
 /// What holds of the programme for exactly these.
 std::optional<Assignment> held(sqlite3* connection, const std::string& programme, const std::string& trainee,
                                const std::string& group) {
-  sql::Statement row(connection,
-                     std::string(kAssignments) +
-                         " WHERE w.id IS NULL AND a.programme = ? AND coalesce(t.code, '') = ? COLLATE NOCASE"
-                         " AND a.group_name = ?");
+  sql::Statement row(connection, std::string(kAssignments) +
+                                     " AND w.id IS NULL AND a.programme = ? AND coalesce(t.code, '') = ? COLLATE NOCASE"
+                                     " AND a.group_name = ?");
   if (!row.bind(programme).bind(trainee).bind(group).step()) return std::nullopt;
   return assignment_of(row);
 }

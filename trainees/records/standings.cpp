@@ -12,7 +12,9 @@ namespace {
 constexpr std::size_t kLongestStandingReason = 200;
 
 bool is_active(sqlite3* connection, std::int64_t trainee) {
-  sql::Statement row(connection, "SELECT active FROM standing WHERE trainee_id = ? ORDER BY uuid DESC LIMIT 1");
+  sql::Statement row(
+      connection,
+      "SELECT active FROM standing WHERE trainee_id = ? AND row_holds('standing', id) ORDER BY uuid DESC LIMIT 1");
   return !row.bind(trainee).step() || row.integer(0) != 0;
 }
 
@@ -49,7 +51,7 @@ Standing StandingStore::of(const std::string& code) const {
   sql::Statement row(
       database_->connection(),
       "SELECT active, reason, printed, s.utc FROM standing s JOIN person p ON p.trainee_id = s.trainee_id"
-      " WHERE p.code = ? ORDER BY s.uuid DESC LIMIT 1");
+      " WHERE p.code = ? AND row_holds('standing', s.id) ORDER BY s.uuid DESC LIMIT 1");
   if (!row.bind(code).step()) return {};
   return {row.integer(0) != 0, row.text(1), row.text(2), row.text(3)};
 }
@@ -57,7 +59,9 @@ Standing StandingStore::of(const std::string& code) const {
 std::set<std::int64_t> deactivated(sqlite3* connection) {
   std::set<std::int64_t> out;
   // Of the columns beside max() SQLite takes those of the row that has it.
-  sql::Statement rows(connection, "SELECT trainee_id, active, max(uuid) FROM standing GROUP BY trainee_id");
+  sql::Statement rows(
+      connection,
+      "SELECT trainee_id, active, max(uuid) FROM standing WHERE row_holds('standing', id) GROUP BY trainee_id");
   while (rows.step())
     if (rows.integer(1) == 0) out.insert(rows.integer(0));
   return out;

@@ -11,7 +11,7 @@ namespace trocar {
 const std::string& sql::decision() {
   static const std::string kJoin =
       " LEFT JOIN verdict_override o ON o.id = (SELECT v.id FROM verdict_override v WHERE v.attempt_id = a.id AND"
-      " row_holds('verdict_override', v.uuid)" +
+      " row_holds('verdict_override', v.id)" +
       newest_first("verdict_override", "v", "attempt_id") + " LIMIT 1)";
   return kJoin;
 }
@@ -55,7 +55,7 @@ std::map<std::int64_t, bool> newest_decisions(const Database& database) {
   std::map<std::int64_t, bool> out;
   sql::Statement rows(database.connection(),
                       "SELECT attempt_id, passed FROM verdict_override v WHERE"
-                      " row_holds('verdict_override', v.uuid)" +
+                      " row_holds('verdict_override', v.id)" +
                           newest_first("verdict_override", "v", "attempt_id"));
   while (rows.step()) out.emplace(rows.integer(0), rows.integer(1) != 0);
   return out;

@@ -166,14 +166,31 @@ void Database::anchor_beginning() {
   if (head.position == 1 && !in_memory() && !fs::exists(anchor_path(file_))) append_anchor(file_, head);
 }
 
+void Database::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
 void Database::require_own_schema() {
-  // A schema that is changed under its number is one that SQLite does not read anew either, so it cannot act here.
-  const std::int64_t present = sql::query_integer(connection_.get(), "PRAGMA schema_version");
-  if (present == own_schema_) return;
+  // What acts is what SQLite has read into memory, which need not be what the file says now, nor what its number says.
+  // It prepares a statement anew whenever it has read the schema anew, and counts how often.
+  const auto times_read = [this] {
+    const int code = sqlite3_step(witness_.get());
+    sqlite3_reset(witness_.get());
+    if (code != SQLITE_ROW) sql::raise(connection_.get(), code, "cannot read the schema");
+    return sqlite3_stmt_status(witness_.get(), SQLITE_STMTSTATUS_REPREPARE, 0);
+  };
+  if (!witness_) {
+    sqlite3_stmt* raw = nullptr;
+    const int code = sqlite3_prepare_v2(connection_.get(), "SELECT count(*) FROM sqlite_schema", -1, &raw, nullptr);
+    witness_.reset(raw);
+    if (code != SQLITE_OK) sql::raise(connection_.get(), code, "cannot read the schema");
+  } else if (own_schema_ >= 0 && times_read() == own_schema_) {
+    return;
+  }
+  own_schema_ = -1;
+  sql::execute(connection_.get(), "PRAGMA writable_schema = RESET");  // memory is what the file says from here on
   if (const std::string other = meddling_schema(connection_.get(), migrations_); !other.empty())
     throw InputError(file_.string() + ": nothing is written to it: " + other +
                      ", and would act on what is written (trocar db check names all that was altered)");
-  own_schema_ = present;
+  own_schema_ = times_read();
 }
 
 std::string Database::head() const {

@@ -17,6 +17,7 @@
 #include "trainees/store/migrations.h"
 
 struct sqlite3;
+struct sqlite3_stmt;
 
 namespace trocar {
 
@@ -75,11 +76,15 @@ class Database {
   void open(OpenMode mode, int busy_timeout_ms);
   void enter_wal(int busy_timeout_ms);
   void anchor_beginning();
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
 
   std::filesystem::path file_;
   std::unique_ptr<sqlite3, Close> connection_;
   std::span<const Migration> migrations_;
-  std::int64_t own_schema_ = -1;  ///< PRAGMA schema_version of the schema that was looked at last
+  std::unique_ptr<sqlite3_stmt, Finalize> witness_;  ///< prepared anew by SQLite whenever it has read the schema anew
+  int own_schema_ = -1;                              ///< how often it was when the schema was looked at last
   MigrationReport migration_;
   std::vector<RecoveredAttempt> recovered_;
 };

@@ -39,8 +39,12 @@ void check_owner(sqlite3* connection, const fs::path& file) {
   // are seen, so is its id; the other order could see no id yet, and then the tables.
   const bool empty = sql::query_integer(connection, "SELECT count(*) FROM sqlite_schema") == 0;
   const auto id = sql::query_integer(connection, "PRAGMA application_id");
-  if (id == kApplicationId || (id == 0 && empty)) return;
-  throw InputError(name_of(file) + ": is a database of another program");
+  if (id != kApplicationId && !(id == 0 && empty))
+    throw InputError(name_of(file) + ": is a database of another program");
+  // In another encoding bytes that no text has can hide a signed entry from every query, and its hash stays.
+  if (const std::string encoding = sql::query_text(connection, "PRAGMA encoding"); encoding != "UTF-8")
+    throw InputError(name_of(file) + ": holds its texts as " + encoding +
+                     ", as no trocar writes them: it was rewritten");
 }
 
 /// trocar.db -> trocar.db.schema1.backup, or .schema1-2.backup when that exists.
@@ -94,10 +98,12 @@ void verify_copy(sqlite3* original, const fs::path& copy) {
   if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
 }
 
-/// Everything that a schema is made of, by type and name.
+/// Everything that a schema is made of, by type and name; SQLite's own statistics are no part of it.
 std::map<std::string, std::string> schema_of(sqlite3* connection) {
   std::map<std::string, std::string> parts;
-  sql::Statement rows(connection, "SELECT type, name, sql FROM sqlite_schema WHERE name NOT LIKE 'sqlite_stat%'");
+  sql::Statement rows(connection,
+                      "SELECT type, name, sql FROM sqlite_schema WHERE type <> 'table' OR name NOT IN ('sqlite_stat1', "
+                      "'sqlite_stat4')");
   while (rows.step()) parts[rows.text(0) + " " + rows.text(1)] = rows.text(2);
   return parts;
 }
@@ -150,7 +156,8 @@ std::string meddling_schema(sqlite3* connection, std::span<const Migration> migr
   const auto wanted = wanted_schema(migrations);
   for (const auto& [part, text] : schema_of(connection)) {
     const auto own = wanted.find(part);
-    if (own == wanted.end() ? part.starts_with("trigger ") : own->second != text)
+    const bool acts = part.starts_with("trigger ") || part.starts_with("index ");
+    if (own == wanted.end() ? acts : own->second != text)
       return part + (own == wanted.end() ? " does not belong there" : " was altered");
   }
   return "";

@@ -2,6 +2,7 @@
 #include "trainees/integrity/audit.h"
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -117,6 +118,23 @@ TEST_F(Audit, AMissingAnchorIsAProblemUntilItIsRenewedOnRecord) {
   sqlite3_open(file_.c_str(), &raw);
   EXPECT_EQ(audit_action(raw, audit_head(raw).position), kActionRenewed);
   sqlite3_close(raw);
+}
+
+/// A link would have lines written into another file, a pipe would have everybody wait.
+TEST_F(Audit, ALinkOrAPipeIsNoAnchor) {
+  const fs::path other = folder_ / "other.txt";
+  std::ofstream(other) << "mine";
+  fs::remove(anchor_path(file_));
+  fs::create_symlink(other, anchor_path(file_));
+  {
+    Database database(file_);
+    store_attempt(database, sample_start(), sample_result());
+  }
+  EXPECT_EQ(fs::file_size(other), 4U);
+  EXPECT_NE(problems().find("t.db.anchor is missing"), std::string::npos) << problems();
+  fs::remove(anchor_path(file_));
+  ASSERT_EQ(mkfifo(anchor_path(file_).c_str(), 0600), 0);
+  EXPECT_NE(problems().find("t.db.anchor is missing"), std::string::npos) << problems();
 }
 
 TEST_F(Audit, AnAnchorThatLagsOrWasCutOffByACrashIsNone) {

@@ -7,6 +7,7 @@
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/files/write_file.h"
 #include "trainees/integrity/anchor_file.h"
+#include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/integrity/sealed_rows.h"
@@ -134,6 +135,121 @@ TEST_F(RewrittenHistory, ATriggerPlantedWhileAnAttemptRunsStopsItsEnd) {
   ASSERT_EQ(run_outside(file_, "DROP TRIGGER z1"), "");
   store.finish_attempt(id, sample_result());
   EXPECT_EQ(problems_of(database), "");
+}
+
+TEST_F(RewrittenHistory, NoNameHidesATriggerOrAnIndex) {
+  for (const char* part :
+       {"TRIGGER sqlite0stat1 AFTER INSERT ON score BEGIN SELECT 1; END", "INDEX z1 ON score(value)"}) {
+    ASSERT_EQ(run_outside(file_, std::string("CREATE ") + part), "");
+    Database database(file_);
+    EXPECT_NE(message_of<InputError>([&] { AttemptStore(database).begin_attempt(sample_start()); }), "") << part;
+    EXPECT_NE(problems_of(database).find("does not belong here"), std::string::npos) << part;
+    ASSERT_EQ(run_outside(file_, "DROP TRIGGER IF EXISTS sqlite0stat1; DROP INDEX IF EXISTS z1"), "");
+  }
+}
+
+/// The file may say by now what it said before, under the number that it had: what acts is what was read in between.
+TEST_F(RewrittenHistory, ATriggerThatWasReadAndTakenOutOfTheFileAgainDoesNotAct) {
+  const char* const plant =
+      "CREATE TRIGGER z1 AFTER INSERT ON score BEGIN UPDATE score SET passed = 1 WHERE id = NEW.id; END";
+  const char* const hide = "PRAGMA writable_schema = ON; DELETE FROM sqlite_schema WHERE name = 'z1'";
+  const char* const bring_back = "DROP TRIGGER score_no_update";
+  ASSERT_EQ(run_outside(file_, bring_back), "");
+  Database database(file_);
+  AttemptStore store(database);
+  AttemptResult failed = sample_result(20);
+  failed.grade.passed = false;
+  const auto passed = [&] {
+    const AttemptId id = store.begin_attempt(sample_start());
+    store.finish_attempt(id, failed);
+    return store.load(id.uuid).grade.passed;
+  };
+  EXPECT_FALSE(passed());
+  const auto number = sql::query_integer(database.connection(), "PRAGMA schema_version");
+  const auto read_page = [&] { sql::query_integer(database.connection(), "SELECT count(*) FROM score"); };
+  ASSERT_EQ(run_outside(file_, plant), "");
+  read_page();
+  ASSERT_EQ(run_outside(file_, hide), "");
+  EXPECT_FALSE(passed());
+  // Read under another number, then changed, and its old number given back.
+  ASSERT_EQ(run_outside(file_, "CREATE TABLE z2 (x); DROP TABLE z2"), "");
+  read_page();
+  ASSERT_EQ(run_outside(file_, std::string(plant) + "; PRAGMA schema_version = " + std::to_string(number)), "");
+  EXPECT_NE(message_of<InputError>([&] { passed(); }).find("z1"), std::string::npos);
+}
+
+/// Hashes join fields by line breaks: a signed entry must not be readable as another one.
+TEST_F(RewrittenHistory, AnEntryCannotBeDividedInAnotherWay) {
+  Database database(file_);
+  const auto appended = [&](const std::string& subject, const std::string& detail) {
+    return message_of<InputError>([&] {
+      AnchoredTransaction transaction(database);
+      append_audit(database.connection(), "recording read", subject, detail);
+      transaction.commit();
+    });
+  };
+  EXPECT_EQ(appended("x", "y"), "");
+  EXPECT_NE(appended("x\nverdict_override added", "y"), "");
+  EXPECT_NE(appended("x", "y\n"), "");
+  const std::string hash = audit_head(database.connection()).row_hash;
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE audit SET row_hash = row_hash || '" + std::string(1, '\n') +
+                                            "x' WHERE position = (SELECT max(position) FROM audit)"),
+            "");
+  EXPECT_NE(appended("x", "y").find("has no hash"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { AttemptStore(database).begin_attempt(sample_start()); }), "");
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE audit SET row_hash = '" + hash +
+                                            "', actor = 'trocar' || char(10) || 'recording read', action = subject,"
+                                            " subject = detail, detail = '' WHERE row_hash GLOB '*x'"),
+            "");
+  EXPECT_NE(said().find("could be read as another one"), std::string::npos) << said();
+}
+
+TEST_F(RewrittenHistory, InAnotherEncodingItIsNotOpened) {
+  const fs::path other = folder_ / "other.db";
+  ASSERT_EQ(run_outside(other, "PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = " +
+                                   std::to_string(kApplicationId) + "; CREATE TABLE audit (position)"),
+            "");
+  EXPECT_NE(message_of<InputError>([&] { Database database(other); }).find("UTF-16le"), std::string::npos);
+}
+
+/// An index that was made to lead from a UUID to another row.
+TEST_F(RewrittenHistory, WhoSignsInIsTheRowThatWasReadNotOneOfTheSameUuid) {
+  std::string uuid;
+  {
+    Database database(file_);
+    AccountStore accounts(database);
+    uuid = accounts.add("boss", "Boss", Role::kAdministrator, "", "correct horse", "").uuid;
+    accounts.add("other", "Other", Role::kTrainee, "T-expert", "482915", "");
+  }
+  const std::string password = "(SELECT password FROM account WHERE login = 'other')";
+  const std::string forged = "FFFFFFFF" + uuid.substr(8);
+  ASSERT_EQ(
+      run_without_triggers(file_, "INSERT INTO account (uuid, login, name, role, password, created_utc) VALUES ('" +
+                                      forged + "', 'mallory', 'M', 'administrator', " + password +
+                                      ", '2026-01-01T00:00:00.000Z'); DELETE FROM account WHERE login = 'other'"),
+      "");
+  ASSERT_EQ(run_outside(file_, "PRAGMA wal_checkpoint(TRUNCATE)"), "");
+  std::ifstream in(file_, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t in_row = bytes.find(forged + "mallory");
+  ASSERT_NE(in_row, std::string::npos);
+  bytes.replace(in_row, uuid.size(), uuid);
+  write_file(file_, bytes);
+  Database database(file_, OpenMode::kExisting);
+  EXPECT_EQ(AccountStore(database).verify("mallory", "482915"), std::nullopt);
+  EXPECT_TRUE(AccountStore(database).verify("boss", "correct horse"));
+}
+
+/// While its accounts are out of the way, or its trail does not say so, nobody may be let in as if there were none.
+TEST_F(RewrittenHistory, ATrailThatIsNotWholeOpensNothing) {
+  Database database(file_);
+  EXPECT_FALSE(accounts_kept(database.connection(), true));
+  AccountStore(database).add("boss", "Boss", Role::kAdministrator, "", "correct horse", "");
+  ASSERT_EQ(run_without_triggers(file_,
+                                 "DELETE FROM account; UPDATE audit SET action = 'x' || action WHERE action LIKE"
+                                 " 'account %'"),
+            "");
+  EXPECT_TRUE(accounts_kept(database.connection(), true));
 }
 
 /// The trail's first entry says whose key it is: whoever writes another there is told by the key beside the file.

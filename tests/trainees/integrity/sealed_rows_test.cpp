@@ -8,6 +8,7 @@
 #include "trainees/records/assessments.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -81,6 +82,73 @@ TEST_F(SealedRows, AnEditedRowOfAnyTableIsFound) {
     EXPECT_NE(problems.find("was changed after it was written"), std::string::npos) << table << ": " << problems;
     for (const char* more : {"", "-wal", "-shm", ".anchor", ".key"}) fs::remove(copy.string() + more);
   }
+}
+
+/// What somebody put into the file counts nowhere, and puts out nothing that counts.
+TEST_F(SealedRows, ARowThatCameInAnotherWayCountsNowhere) {
+  const auto forged = [&](const std::string& sql) { EXPECT_EQ(run_without_triggers(file_, sql), "") << sql; };
+  const std::string when = "'2099-01-01T00:00:00.000Z'", uuid = "'ffffffff-0000-7000-8000-00000000000";
+  forged("INSERT INTO standing (uuid, trainee_id, active, reason, author, printed, utc) SELECT " + uuid +
+         "1', trainee_id, 0, '', '', 'M', " + when + " FROM person WHERE code = 'T-1'");
+  forged("INSERT INTO consent (uuid, trainee_id, purpose, given, text, author, utc) SELECT " + uuid +
+         "2', trainee_id, 'research', 0, '', '', " + when + " FROM person WHERE code = 'T-1'");
+  forged("INSERT INTO erasure (uuid, trainee_id, kind, rule, author, utc) SELECT " + uuid +
+         "3', trainee_id, 'training', '', '', " + when + " FROM person WHERE code = 'T-1'");
+  forged(
+      "INSERT INTO audit SELECT position + 1, utc, 'x', 'verdict_override noted', (SELECT uuid FROM"
+      " verdict_override), 'x', row_hash, 'x', '' FROM audit ORDER BY position DESC LIMIT 1");
+  Database database(file_);
+  EXPECT_TRUE(StandingStore(database).of("T-1").active);
+  EXPECT_TRUE(deactivated(database.connection()).empty());
+  EXPECT_TRUE(ConsentStore(database).holds("T-1", "research"));
+  ASSERT_EQ(AssessmentStore(database).overrides_of(attempts_[0]).size(), 1U)
+      << "an unsigned entry puts out no decision";
+}
+
+TEST_F(SealedRows, AForgedRevocationTakesNoCertificateAway) {
+  Database database(file_);
+  AssessmentStore assessments(database);
+  const std::string certificate = assessments.certify("T-2", "surface-touch", "L1", "1", "{}", kAuthor).uuid;
+  EXPECT_EQ(run_without_triggers(file_,
+                                 "INSERT INTO revocation (uuid, certificate_id, author, printed, reason, utc) SELECT"
+                                 " 'ffffffff-0000-7000-8000-000000000001', id, '', 'M', 'issued too early',"
+                                 " '2099-01-01T00:00:00.000Z' FROM certificate WHERE uuid = '" +
+                                     certificate + "'"),
+            "");
+  EXPECT_EQ(assessments.certificates_of("T-2").at(0).revoked_utc, "");
+  EXPECT_NE(assessments.certificates_of("T-1").at(0).revoked_utc, "");
+}
+
+/// A decision whose UUID is another's, and more after a NUL.
+TEST_F(SealedRows, ADecisionUnderHalfOfAnothersNameCountsForNothing) {
+  EXPECT_EQ(run_without_triggers(file_,
+                                 "INSERT INTO verdict_override (uuid, attempt_id, row_hash, author, printed, passed,"
+                                 " reason, utc) SELECT uuid || char(0) || 'x', (SELECT id FROM attempt WHERE uuid = '" +
+                                     attempts_[1] +
+                                     "'), row_hash, author, printed, passed, reason, utc FROM verdict_override"),
+            "");
+  Database database(file_);
+  EXPECT_TRUE(AssessmentStore(database).overrides_of(attempts_[1]).empty());
+}
+
+/// An attempt lent to somebody for a moment.
+TEST_F(SealedRows, NobodyIsCertifiedForAnothersAttempts) {
+  const std::string lend = "UPDATE attempt SET trainee_id = (SELECT trainee_id FROM person WHERE code = '",
+                    of = "') WHERE uuid = '" + attempts_[0] + "'";
+  EXPECT_EQ(run_without_triggers(file_, lend + "T-2" + of), "");
+  Database database(file_);
+  AssessmentStore assessments(database);
+  const std::string evidence = "{\"attempt\": \"" + attempts_[0] + "\"}";
+  EXPECT_NE(message_of<InputError>([&] {
+              assessments.certify("T-2", "surface-touch", "L1", "1", evidence, kAuthor);
+            }).find("was changed after it was finished"),
+            std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { assessments.override_verdict(attempts_[0], true, kReason, kAuthor); }), "");
+  EXPECT_EQ(run_without_triggers(file_, lend + "T-1" + of), "");
+  EXPECT_NE(message_of<InputError>([&] {
+              assessments.certify("T-2", "surface-touch", "L1", "1", evidence, kAuthor);
+            }).find("none of this trainee's"),
+            std::string::npos);
 }
 
 TEST_F(SealedRows, ADeletedRowIsFound) { expect_found("DELETE FROM note", "records: note " + note_ + " is missing"); }

@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "trainees/markup/plots.h"
+#include "trainees/markup/svg.h"
 
 namespace trocar::plots_test {
 namespace {
+
+/// A record may hold any number, and whoever looks at it must not wait for ever.
+TEST(AxisTicks, EndWhateverTheNumbersAre) {
+  EXPECT_EQ(svg::ticks(0, 10, svg::nice_step(10, 5)), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  const double infinite = std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::max();
+  for (const double high : {infinite, most, 1e17 + 16, std::nan(""), -infinite})
+    for (const double low : {0.0, 1e17, -infinite, std::nan("")})
+      EXPECT_LE(svg::ticks(low, high, svg::nice_step(high - low, 5)).size(), 200U) << low << " " << high;
+}
 
 TEST(ColumnRanges, KeepTheShortestPeak) {
   std::vector<double> t, values;

@@ -142,6 +142,15 @@ TEST_F(AttemptRecovery, ARowThatWasChangedWhileItRanIsTold) {
   EXPECT_NE(problems_of(database).find(": its row is not as it began"), std::string::npos) << problems_of(database);
 }
 
+TEST_F(AttemptRecovery, ARowWithBytesThatAreNoTextLocksNobodyOut) {
+  Child child(folder_ / "t.db");
+  child.kill_and_reap();
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE attempt SET hand = CAST(x'ff41' AS TEXT)"), "");
+  Database database(folder_ / "t.db");
+  EXPECT_EQ(database.recovered().size(), 1u);
+  EXPECT_NE(problems_of(database).find(": its row is not as it began"), std::string::npos) << problems_of(database);
+}
+
 /// What an attempt began with is told in the trail, what its row says of its file, program and owner too.
 TEST_F(AttemptRecovery, NoOtherFileIsTakenForTheRecordingOfARowThatWasChanged) {
   for (const char* change : {"recording_path = 't.db.key'", "program = 'trocar 9.9'", "organ_name = 'patient'",

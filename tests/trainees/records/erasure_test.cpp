@@ -226,6 +226,22 @@ TEST_F(Erasure, SparesAFileThatIsNotTheRecordingAnyMore) {
   EXPECT_TRUE(fs::exists(*start.recording));
 }
 
+/// The row that names the file is in the record, and whoever can write there must not choose what goes.
+TEST_F(Erasure, TakesNoFileThatOnlyARowNames) {
+  const fs::path home = folder_ / "home", own = home / (attempts_[0] + ".trec");
+  fs::create_directories(home);
+  for (const char* name : {"thesis.docx", "thesis.notes.txt"}) std::ofstream(home / name) << "my thesis";
+  std::ofstream(own) << "somebody's";
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE attempt SET recording_path = '" + own.string() + "' WHERE uuid = '" +
+                                            attempts_[0] + "'; UPDATE attempt SET uuid = 'thesis', recording_path = '" +
+                                            (home / "thesis.docx").string() + "' WHERE uuid = '" + attempts_[1] + "'"),
+            "");
+  fs::remove(recording(attempts_[0]));
+  const ErasureReport report = erase(ErasureKind::kTraining);
+  EXPECT_EQ(report.left.size(), 2u);
+  for (const fs::path& file : {home / "thesis.docx", home / "thesis.notes.txt", own}) EXPECT_TRUE(fs::exists(file));
+}
+
 TEST_F(Erasure, IsRefusedWhileAnAttemptRunsAndForNobody) {
   const auto nobody = [&] { erase(ErasureKind::kIdentity, "T-9"); };
   EXPECT_NE(message_of<InputError>(nobody).find("there is none"), std::string::npos);

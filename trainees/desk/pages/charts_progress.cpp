@@ -41,7 +41,7 @@ struct Axes {
 
   std::string grid(double step, const std::string& words) const {
     std::string out;
-    for (double v = low; v <= high + 1e-4 * step; v += step)
+    for (const double v : svg::ticks(low, high + 1e-4 * step, step))
       out += line(left, y(v), right, y(v), "stroke=\"#d9dee4\"") + label(left - 8, y(v) + 5, number_text(v), "end");
     const int stride = std::max(1, static_cast<int>(std::lround(svg::nice_step(std::max(1, last - first), 9))));
     for (int n = first; n <= last; n += stride) out += label(x(n), bottom + 20, std::to_string(n), "middle");
@@ -276,7 +276,7 @@ std::string weeks_svg(const std::vector<std::pair<std::string, double>>& minutes
     axes.high = std::max(axes.high, minutes_by_week[i].second);
   std::string out = open(axes.width, axes.height, "Minutes a week", "weeks");
   const double step = svg::nice_step(axes.high, 4);
-  for (double v = 0; v <= axes.high * 1.0001; v += step)
+  for (const double v : svg::ticks(0, axes.high * 1.0001, step))
     out += line(axes.left, axes.y(v), axes.right, axes.y(v), "stroke=\"#d9dee4\"") +
            label(axes.left - 6, axes.y(v) + 5, number_text(v), "end");
   const double slot = count == 0 ? 0 : std::min(40.0, (axes.right - axes.left) / static_cast<double>(count));

@@ -102,10 +102,10 @@ class Drawing {
   std::string axes() const {
     std::string out;
     const double step_n = svg::nice_step(top_n_, 5), step_s = svg::nice_step(t_end_, 9);
-    for (double n = 0; n <= top_n_; n += step_n)
+    for (const double n : svg::ticks(0, top_n_, step_n))
       out += line(kLeft, y(n), kRight, y(n), "stroke=\"#000\" stroke-opacity=\"0.12\"") +
              label(kLeft - 6, y(n) + 5, number_text(n), "end");
-    for (double t = 0; t <= t_end_ * 1.0001; t += step_s) {
+    for (const double t : svg::ticks(0, t_end_ * 1.0001, step_s)) {
       const bool last = x(t) > kRight - 14;
       out += line(x(t), kBottom, x(t), kBottom + 5, "stroke=\"#555\"") +
              label(x(t), kEventRow + 28, number_text(t), last ? "end" : "middle");

@@ -26,7 +26,7 @@ bool unsigned_words(const Database& database, const std::string& attempt) {
     sql::Statement row(database.connection(), "SELECT EXISTS (SELECT 1 FROM " + table +
                                                   " r JOIN attempt a ON a.id = r.attempt_id WHERE a.uuid = ?1"
                                                   " AND NOT row_holds('" +
-                                                  table + "', r.uuid))");
+                                                  table + "', r.id))");
     if (row.bind(attempt).step() && row.integer(0) != 0) return true;
   }
   return false;

@@ -63,7 +63,8 @@ std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database) 
 
 std::set<std::int64_t> training_erased(sqlite3* connection) {
   std::set<std::int64_t> out;
-  sql::Statement rows(connection, "SELECT trainee_id FROM erasure WHERE kind = 'training'");
+  sql::Statement rows(connection,
+                      "SELECT trainee_id FROM erasure WHERE kind = 'training' AND row_holds('erasure', id)");
   while (rows.step()) out.insert(rows.integer(0));
   return out;
 }

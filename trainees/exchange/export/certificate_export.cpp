@@ -50,7 +50,7 @@ const std::vector<Field>& fields() {
 void read_revocation(sqlite3* connection, ExportedCertificate& one) {
   sql::Statement row(connection,
                      "SELECT r.uuid, r.printed, r.author FROM revocation r JOIN certificate c ON c.id ="
-                     " r.certificate_id WHERE c.uuid = ? ORDER BY r.uuid LIMIT 1");
+                     " r.certificate_id WHERE c.uuid = ? AND row_holds('revocation', r.id) ORDER BY r.uuid LIMIT 1");
   if (!row.bind(one.certificate.uuid).step()) return;
   one.revocation_uuid = row.text(0);
   one.revoked_by = row.text(1);

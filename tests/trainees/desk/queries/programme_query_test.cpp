@@ -5,6 +5,7 @@
 #include "tests/trainees/records/cohort_samples.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/desk/queries/desk_queries.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/cohort.h"
@@ -196,6 +197,8 @@ TEST_F(ProgrammeQuery, TheStepsOwnDaysCountFromJoiningAndThePersonsAssignmentGoe
                "UPDATE assignment SET utc = '2020-01-01T10:00:00.000Z';"
                "UPDATE audit SET utc = '2020-03-01T10:00:00.000Z' WHERE action = 'group joined'"
                " AND subject = (SELECT uuid FROM known_trainee WHERE code = 'T-1')");
+  seal_row(database_.connection(), "assignment", sql::query_text(database_.connection(), "SELECT uuid FROM assignment"),
+           "");
   const ProgrammeGrid both = grid({}, now.c_str());
   EXPECT_EQ(due_day(*both.lines[0].cells[0].due_s), "2020-03-11");
   EXPECT_EQ(both.lines[0].cells[0].state, StepState::kOverdue);
