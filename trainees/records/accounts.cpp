@@ -1,12 +1,16 @@
 #include "trainees/records/accounts.h"
 
 #include <sodium.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/password_rules.h"
@@ -222,16 +226,26 @@ void AccountStore::signed_in(const std::string& account) { note_coming(*database
 void AccountStore::signed_out(const std::string& account) { note_coming(*database_, "signed out", account, account); }
 void AccountStore::held_back(const std::string& account) { note_coming(*database_, "sign-in held back", account, ""); }
 
-bool accounts_kept(sqlite3* connection, bool enabled, std::int64_t after) {
+bool accounts_kept(sqlite3* connection, bool enabled) {
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, bool>, AuditHead> none_up_to;  // by file
+  const std::lock_guard lock(mutex);
+  AuditHead& known = none_up_to[{sqlite3_db_filename(connection, "main"), enabled}];
+  if (known.position > 0 && audit_hash(connection, known.position) != known.row_hash) known = {};
+  const AuditHead head = audit_head(connection);
   sql::Statement row(
       connection,
       "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '' AND (NOT ?1 OR disabled_utc IS NULL)) OR"
-      " EXISTS (SELECT 1 FROM audit u WHERE position > ?2 AND action = 'account added' AND (SELECT action FROM audit n"
-      " WHERE n.subject = u.subject AND n.action IN ('account added', 'account disabled',"
+      " EXISTS (SELECT 1 FROM audit u WHERE position > ?2 AND action IN ('account added', 'account enabled') AND "
+      "(SELECT"
+      " action FROM audit n WHERE n.subject = u.subject AND n.action IN ('account added', 'account disabled',"
       " 'account enabled', 'account erased') ORDER BY n.position DESC LIMIT 1) NOT IN"
       " ('account erased', CASE WHEN ?1 THEN 'account disabled' ELSE '' END))");
   // Of a trail that somebody has altered nobody knows what it said of accounts.
-  return (row.bind(enabled).bind(after).step() && row.integer(0) != 0) || !trail_whole(connection, after);
+  if (row.bind(enabled).bind(known.position).step() && row.integer(0) != 0) return true;
+  if (!trail_whole(connection, known.position)) return true;
+  known = head;
+  return false;
 }
 
 std::optional<Account> AccountStore::verify(const std::string& login, const std::string& password) const {

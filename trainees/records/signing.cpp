@@ -27,13 +27,9 @@ std::string why_no_signature(const Database& database, const std::string& accoun
     return given_by_another(connection, account_uuid)
                ? "your password was given to you by somebody else, who knows it too: set your own first"
                : "";
-  // The whole trail is read only where neither of the short questions refuses: every page of the desk asks this.
-  const bool account =
-      sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM account WHERE password <> '')") != 0;
-  if (!account && sql::query_integer(connection, "SELECT count(*) FROM person") > 1)
+  if (accounts_kept(connection, false)) return "accounts are kept here, so only an account can sign: sign in first";
+  if (sql::query_integer(connection, "SELECT count(*) FROM person") > 1)
     return "several people are kept here, so a signature must be somebody's: make an account first";
-  if (account || accounts_kept(connection, false))
-    return "accounts are kept here, so only an account can sign: sign in first";
   return "";
 }
 

@@ -7,9 +7,7 @@
 
 namespace trocar::review {
 
-bool somebody_can_sign_in(const Database& database, std::int64_t after) {
-  return accounts_kept(database.connection(), true, after);
-}
+bool somebody_can_sign_in(const Database& database) { return accounts_kept(database.connection(), true); }
 
 std::string sign_in_stamp(const Database& database, const std::string& account_uuid) {
   sql::Statement row(database.connection(),

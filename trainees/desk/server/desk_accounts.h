@@ -11,7 +11,7 @@
 namespace trocar::review {
 
 /// There is an account that is not disabled (accounts.h).
-bool somebody_can_sign_in(const Database& database, std::int64_t after = 0);
+bool somebody_can_sign_in(const Database& database);
 
 /// Changes when the account's password, role, trainee or state does; "" when it may not sign in, or is gone.
 std::string sign_in_stamp(const Database& database, const std::string& account_uuid);

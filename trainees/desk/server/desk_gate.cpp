@@ -10,7 +10,6 @@
 #include "trainees/desk/server/path_redaction.h"
 #include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
-#include "trainees/integrity/audit.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/store/disk_full.h"
 
@@ -83,12 +82,7 @@ bool DeskGate::known_host(const IncomingRequest& incoming) const {
 
 void DeskGate::open_session(RequestContext& context) {
   Database& database = context.desk.database;
-  bool open_to_user = false;
-  if (!options_.lan) {
-    const std::int64_t looked_at = audit_head(database.connection()).position;
-    open_to_user = !somebody_can_sign_in(database, no_account_up_to_);
-    if (open_to_user) no_account_up_to_ = looked_at;
-  }
+  const bool open_to_user = !options_.lan && !somebody_can_sign_in(database);
   if (const auto session = sessions_.find(context.number, context.now)) {
     if (session->account.empty()) {
       if (open_to_user) context.request.account = local_instructor();

@@ -87,8 +87,7 @@ class DeskGate {
   GateOptions options_;
   RouteTable table_;
   DeskSessions sessions_;
-  std::atomic<std::int64_t> no_account_up_to_ = 0;  ///< entry of the audit trail
-  SignInLimit limit_, pin_limit_;                   ///< apart: whoever guesses at PINs keeps nobody with a password out
+  SignInLimit limit_, pin_limit_;  ///< apart: whoever guesses at PINs keeps nobody with a password out
   std::atomic<int> verifying_{0};
 };
 
