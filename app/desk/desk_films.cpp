@@ -18,6 +18,7 @@
 #include "app/picture/gl/headless_context.h"
 #include "app/session/keeping/recording_check.h"
 #include "haptics/input_error.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar {
@@ -71,7 +72,10 @@ struct DeskFilms::State {
   State(AssetRoots roots, const fs::path& database, std::function<Database()> opener)
       : assets(std::move(roots)), folder(own_folder(database)), open(std::move(opener)) {}
 
-  fs::path file_of(const std::string& uuid) const { return folder / (uuid + ".mp4"); }
+  fs::path file_of(const std::string& uuid) const {
+    require_name_of_attempt(uuid);
+    return folder / (uuid + ".mp4");
+  }
   void sweep();
   void work(const std::string& uuid, const Subject& subject) noexcept;
   void film(const std::string& uuid, const Subject& subject);

@@ -61,8 +61,11 @@ std::string of_bytes(std::string_view bytes) {
 }
 
 std::string of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": cannot be opened for reading");
+  std::error_code error;
+  const bool ends = std::filesystem::is_regular_file(file, error);  // a pipe or a device need not
+  std::ifstream in;
+  if (ends) in.open(file, std::ios::binary);
+  if (!ends || !in) throw InputError(file.string() + ": cannot be opened for reading");
   Stream stream;
   std::array<char, 65536> block{};
   while (in.read(block.data(), block.size()) || in.gcount() > 0) {

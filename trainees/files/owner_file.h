@@ -2,10 +2,14 @@
 // far as the file system knows rights. What is there already is narrowed, never widened. Thread: any.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
 namespace trocar {
+
+/// Bytes; a minute has 4 MiB at most. What is larger is no recording, and nobody reads it to its end.
+inline constexpr std::uintmax_t kLargestRecording = std::uintmax_t{1} << 30;
 
 /// A fresh or emptied file, open for writing; the stream tells whether it could be opened, errno why not.
 std::ofstream open_owner_file(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 #include <unordered_set>
 
 #include "haptics/digest/digest.h"
+#include "haptics/input_error.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
@@ -177,6 +178,14 @@ bool attempt_vouched(sqlite3* connection, std::int64_t attempt) {
   while (entry.step())
     if (entry_signed(connection, entry.integer(0))) return true;
   return false;
+}
+
+void require_vouched(sqlite3* connection, std::int64_t attempt, const std::string& what) {
+  if (attempt_vouched(connection, attempt)) return;
+  sql::Statement row(connection, "SELECT uuid FROM attempt WHERE id = ?");
+  row.bind(attempt).step();
+  throw InputError("attempt " + row.text(0) + ": was changed after it was finished and cannot be " + what +
+                   "; see trocar db check");
 }
 
 std::vector<std::string> check_chain(sqlite3* connection) {

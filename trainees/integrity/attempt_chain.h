@@ -32,6 +32,8 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
 bool attempt_holds(sqlite3* connection, std::int64_t attempt);
 /// The same, and a signed entry of the trail says so: what people put their name to.
 bool attempt_vouched(sqlite3* connection, std::int64_t attempt);
+/// @param what cannot be done with it otherwise: "signed". @throws InputError: it is not so.
+void require_vouched(sqlite3* connection, std::int64_t attempt, const std::string& what);
 
 /// Problems found when the whole chain is computed again, one line each.
 std::vector<std::string> check_chain(sqlite3* connection);

@@ -48,12 +48,16 @@ void check_links(sqlite3* connection, std::vector<std::string>& problems, std::i
   sql::Statement rows(connection,
                       "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash FROM audit"
                       " WHERE position > ? AND position <= ? ORDER BY position");
-  rows.bind(after).bind(up_to);
+  rows.bind(after == 0 ? std::numeric_limits<std::int64_t>::min() : after).bind(up_to);
   std::string previous = after > 0 ? audit_hash(connection, after) : "";
   std::int64_t expected = after + 1;
   while (rows.step()) {
     const std::int64_t position = rows.integer(0);
     const std::string name = "entry " + std::to_string(position) + " (" + rows.text(3) + ")";
+    if (position < 1) {
+      problems.push_back(name + " stands before the first: it came in by another way");
+      continue;
+    }
     if (position != expected)
       problems.push_back("before " + name + ": entries are missing");
     else if (rows.text(6) != previous)
@@ -182,7 +186,7 @@ bool signed_by(sqlite3* connection, std::int64_t position, const std::string& ke
   sql::Statement row(connection,
                      "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash, signature FROM audit"
                      " WHERE position = ?");
-  if (!row.bind(position).step() || !can_be_divided(row)) return false;
+  if (position < 1 || !row.bind(position).step() || !can_be_divided(row)) return false;
   // The signature is of the hash: what the entry says must be what was hashed.
   const std::string hash =
       hash_of(row.text(6), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
@@ -240,6 +244,10 @@ bool signs(sqlite3* connection) {
                              [own = here->public_key()](const AnnouncedKey& key) { return key.public_key == own; });
 }
 
+bool stands_before_the_first(sqlite3* connection) {
+  return sql::query_integer(connection, "SELECT EXISTS (SELECT 1 FROM audit WHERE position < 1)") != 0;
+}
+
 Beginning beginning_of(sqlite3* connection, const std::string& uuid) {
   sql::Statement entry(connection, "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
   if (!entry.bind(uuid).bind(kActionBegun).step()) return {};
@@ -257,6 +265,8 @@ std::string head_text(const std::string& row_hash) { return "trocar-audit-head-1
 
 void append_audit(sqlite3* connection, const std::string& action, const std::string& subject, const std::string& detail,
                   const std::string& actor) {
+  if (stands_before_the_first(connection))
+    throw InputError("audit trail: entries stand before the first, so nothing is written; see trocar db check");
   const AuditHead head = audit_head(connection);
   if (head.position > 0) require_hash(head.row_hash, "the trail's last entry");
   for (const std::string& field : {action, subject, detail, actor})
@@ -306,7 +316,20 @@ bool trail_whole(sqlite3* connection, std::int64_t after) {
   std::vector<std::string> problems;
   check_links(connection, problems, after);
   const std::int64_t last = audit_head(connection).position;
-  return problems.empty() && (last == 0 || !signs(connection) || entry_signed(connection, last));
+  return problems.empty() && !stands_before_the_first(connection) &&
+         (last == 0 || !station_key(connection) || entry_signed(connection, last));
+}
+
+bool trail_goes_on(sqlite3* connection) {
+  const std::string file = sqlite3_db_filename(connection, "main");
+  if (file.empty()) return true;
+  static std::mutex mutex;
+  static std::map<std::string, AuditHead> farthest;  // by file and first entry: another record may come to lie there
+  const std::lock_guard lock(mutex);
+  AuditHead& seen = farthest[file + '\n' + audit_hash(connection, 1)];
+  if (seen.position > 0 && audit_hash(connection, seen.position) != seen.row_hash) return false;
+  seen = audit_head(connection);
+  return true;
 }
 
 AuditHead audit_head(sqlite3* connection) {
@@ -328,6 +351,7 @@ std::string key_of_attempt(sqlite3* connection, const std::string& uuid) {
 }
 
 bool entry_signed(sqlite3* connection, std::int64_t position) {
+  if (position < 1) return false;
   const std::string holder = key_at(connection, position);
   if (holder.empty()) return true;
   return signed_by(connection, position, holder);

@@ -44,6 +44,9 @@ void append_audit(sqlite3* connection, const std::string& action, const std::str
 void require_hash(const std::string& hash, const std::string& whose);
 
 AuditHead audit_head(sqlite3* connection);
+/// Whether the trail still holds the last entry that this process has seen of it: nothing was cut off or exchanged
+/// meanwhile. Outside of a transaction, or at its beginning.
+bool trail_goes_on(sqlite3* connection);
 /// Whether the entries from there on follow one another as they were hashed, and the last is signed, where there is a
 /// key to sign with.
 /// @param after entry up to which it was looked at before, 0: all.

@@ -173,8 +173,16 @@ void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std
 }
 
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid) {
-  const std::string kept = newest_digest(connection, kTables[1], trainee_uuid);
-  return kept == digest_of(connection, "person", kPerson, trainee_uuid);
+  sql::Statement entry(connection, std::string("SELECT position, detail FROM audit WHERE subject = ? AND action IN (") +
+                                       kTables[1].actions + ") ORDER BY position DESC LIMIT 1");
+  return entry.bind(trainee_uuid).step() && entry_signed(connection, entry.integer(0)) &&
+         entry.text(1) == digest_of(connection, "person", kPerson, trainee_uuid);
+}
+
+void require_person(sqlite3* connection, std::int64_t trainee, const std::string& code) {
+  sql::Statement row(connection, "SELECT uuid FROM trainee WHERE id = ?");
+  if (!row.bind(trainee).step() || !person_holds(connection, row.text(0)))
+    throw InputError("trainee \"" + code + "\": was changed by another way; see trocar db check");
 }
 
 void keep_exercise(sqlite3* connection, const std::string& id) {

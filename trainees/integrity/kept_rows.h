@@ -29,6 +29,9 @@ void keep_trainee(sqlite3* connection, const std::string& uuid, const std::strin
 void keep_person(sqlite3* connection, const std::string& trainee_uuid, const std::string& author = "");
 /// Whether the person is as the newest entry has it, so that a change may follow.
 bool person_holds(sqlite3* connection, const std::string& trainee_uuid);
+/// For who writes under somebody's code. @throws InputError: the person's row is not as a signed entry says, so that
+/// what is written could be another's.
+void require_person(sqlite3* connection, std::int64_t trainee, const std::string& code);
 void keep_exercise(sqlite3* connection, const std::string& id);
 /// Only where no entry is yet.
 void keep_exercise_once(sqlite3* connection, const std::string& id);

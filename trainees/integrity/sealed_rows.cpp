@@ -140,13 +140,31 @@ void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
   }
 }
 
+/// Position of the signed entry that the row is as; 0: none.
+std::int64_t entry_of_row(sqlite3* connection, const std::string& table, std::int64_t row) {
+  sql::Statement content(connection, query_of(table_named(table)) + " WHERE r.id = ?");
+  if (!content.bind(row).step()) return 0;
+  const std::string digest = digest_of_columns(table, content);
+  const bool account = table == kAccountTable;
+  sql::Statement entries(connection, account ? "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ?"
+                                               " ORDER BY position DESC LIMIT 1"
+                                             : "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
+  entries.bind(content.text(0)).bind(table + (account ? " *" : " added"));
+  while (entries.step())
+    if (entries.text(1) == digest && entry_signed(connection, entries.integer(0))) return entries.integer(0);
+  return 0;
+}
+
+template <bool kPosition>
 void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
   const auto* table = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
   try {
-    sqlite3_result_int(context, row_holds(sqlite3_context_db_handle(context), table == nullptr ? "" : table,
-                                          sqlite3_value_int64(values[1]))
-                                    ? 1
-                                    : 0);
+    const std::int64_t entry =
+        entry_of_row(sqlite3_context_db_handle(context), table == nullptr ? "" : table, sqlite3_value_int64(values[1]));
+    if (kPosition && entry == 0)
+      sqlite3_result_null(context);
+    else
+      sqlite3_result_int64(context, kPosition ? entry : entry > 0);
   } catch (const std::exception& error) {
     sqlite3_result_error(context, error.what(), -1);
   }
@@ -155,9 +173,13 @@ void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** valu
 }  // namespace
 
 void add_row_holds(sqlite3* connection) {
-  const int code = sqlite3_create_function(connection, "row_holds", 2, SQLITE_UTF8 | SQLITE_DIRECTONLY, nullptr,
-                                           say_row_holds, nullptr, nullptr);
-  if (code != SQLITE_OK) sql::raise(connection, code, "cannot add a function");
+  const std::pair<const char*, decltype(&say_row_holds<false>)> kFunctions[] = {{"row_holds", say_row_holds<false>},
+                                                                                {"row_entry", say_row_holds<true>}};
+  for (const auto& [name, function] : kFunctions) {
+    const int code = sqlite3_create_function(connection, name, 2, SQLITE_UTF8 | SQLITE_DIRECTONLY, nullptr, function,
+                                             nullptr, nullptr);
+    if (code != SQLITE_OK) sql::raise(connection, code, "cannot add a function");
+  }
 }
 
 const std::vector<std::string>& sealed_tables() {
@@ -178,25 +200,15 @@ std::string next_row_uuid(sqlite3* connection, const std::string& table) {
 std::string newest_first(const std::string& table, const std::string& row, const std::string& of) {
   // What was written here was written after all that stood here: it counts as if it had the greatest UUID of these.
   // That of a program's own is so by itself; rows of older programs and a clock that was set back are not.
-  const std::string entry = ".subject = " + row + ".uuid AND n.action = '" + table + " added'";
+  const std::string entry = "row_entry('" + table + "', " + row + ".id)";
   return " ORDER BY (SELECT CASE n.actor WHEN '" + std::string(kFromCentre) + "' THEN " + row +
-         ".uuid ELSE (SELECT max(w.uuid) FROM " + table + " w JOIN audit m ON m.subject = w.uuid AND m.action = '" +
-         table + " added' WHERE w." + of + " = " + row + "." + of + " AND m.position <= n.position) END FROM audit n" +
-         " WHERE n" + entry + ") DESC, (SELECT n.position FROM audit n WHERE n" + entry + ") DESC";
+         ".uuid ELSE (SELECT max(w.uuid) FROM " + table + " w WHERE w." + of + " = " + row + "." + of +
+         " AND row_entry('" + table + "', w.id) <= n.position) END FROM audit n WHERE n.position = " + entry +
+         ") DESC, " + entry + " DESC";
 }
 
 bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row) {
-  sql::Statement content(connection, query_of(table_named(table)) + " WHERE r.id = ?");
-  if (!content.bind(row).step()) return false;
-  const std::string digest = digest_of_columns(table, content);
-  const bool account = table == kAccountTable;
-  sql::Statement entries(connection, account ? "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ?"
-                                               " ORDER BY position DESC LIMIT 1"
-                                             : "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
-  entries.bind(content.text(0)).bind(table + (account ? " *" : " added"));
-  while (entries.step())
-    if (entries.text(1) == digest && entry_signed(connection, entries.integer(0))) return true;
-  return false;
+  return entry_of_row(connection, table, row) > 0;
 }
 
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid) {

@@ -54,7 +54,7 @@ std::string digest_of_row(sqlite3* connection, const std::string& table, const s
 /// have been made to lead from a UUID to another row.
 bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row);
 
-/// The same for queries: row_holds(TABLE, id), 1 or 0.
+/// For queries: row_holds(TABLE, id), 1 or 0, and row_entry(TABLE, id), the entry that says so, NULL without.
 void add_row_holds(sqlite3* connection);
 
 /// Problems between rows and trail, one line each. Rows that went by a recorded erasure are none.

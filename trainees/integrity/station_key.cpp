@@ -82,7 +82,8 @@ std::vector<AnnouncedKey> announced_keys(sqlite3* connection) {
   std::vector<AnnouncedKey> out;
   sql::Statement rows(connection,
                       "SELECT 1, detail FROM audit WHERE position = 1 AND action = ?1 AND detail <> ''"
-                      " UNION ALL SELECT position, detail FROM audit WHERE subject = ?2 AND action = ?2 ORDER BY 1");
+                      " UNION ALL SELECT position, detail FROM audit WHERE subject = ?2 AND action = ?2 AND"
+                      " position > 0 ORDER BY 1");
   rows.bind(kActionMade).bind(kActionKey);
   while (rows.step()) out.push_back({rows.integer(0), rows.text(1)});
   return out;

@@ -58,6 +58,9 @@ std::string check_head(const Database& database, const SignedHead& head, const s
 }
 
 std::string exported_head(const Database& database) {
+  if (!trail_whole(database.connection(), 0))
+    throw InputError(database.file().string() +
+                     ": the audit trail is not whole, so its head is no witness; see trocar db check");
   const SignedHead head = head_at(database, audit_head(database.connection()).position);
   return Json{{"format", kFormat}, {"position", head.position}, {"row_hash", head.row_hash},
               {"utc", head.utc},   {"key", head.key},           {"signature", head.signature}}
@@ -66,7 +69,10 @@ std::string exported_head(const Database& database) {
 }
 
 std::vector<std::string> check_witness(const Database& database, const fs::path& file) {
-  const std::string problem = check_head(database, read_witness(file), file.string());
+  const SignedHead head = read_witness(file);
+  if (head.key.empty() && !station_keys(database).empty())
+    throw InputError(file.string() + ": is not signed, as every head of this record is");
+  const std::string problem = check_head(database, head, file.string());
   return problem.empty() ? std::vector<std::string>{} : std::vector<std::string>{problem};
 }
 

@@ -11,6 +11,7 @@
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/password_rules.h"
@@ -120,6 +121,7 @@ std::int64_t trainee_without_account(sqlite3* connection, const std::string& cod
                      " WHERE p.code = ?");
   if (!row.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none; add the trainee first");
   if (!row.is_null(1)) throw InputError("trainee \"" + code + "\": has the account \"" + row.text(1) + "\" already");
+  require_person(connection, row.integer(0), code);
   return row.integer(0);
 }
 
@@ -229,6 +231,7 @@ void AccountStore::held_back(const std::string& account) { note_coming(*database
 bool accounts_kept(sqlite3* connection, bool enabled) {
   static std::mutex mutex;
   static std::map<std::pair<std::string, bool>, AuditHead> none_up_to;  // by file
+  if (!trail_goes_on(connection)) return true;
   const std::lock_guard lock(mutex);
   AuditHead& known = none_up_to[{sqlite3_db_filename(connection, "main"), enabled}];
   if (known.position > 0 && audit_hash(connection, known.position) != known.row_hash) known = {};

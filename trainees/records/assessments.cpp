@@ -43,6 +43,7 @@ FinishedAttempt finished_attempt(sqlite3* connection, const std::string& uuid) {
 std::int64_t trainee_id(sqlite3* connection, const std::string& code) {
   sql::Statement row(connection, "SELECT trainee_id FROM person WHERE code = ?");
   if (!row.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none");
+  require_person(connection, row.integer(0), code);
   return row.integer(0);
 }
 
@@ -74,13 +75,6 @@ void check_rating(const RatingScale& scale, const std::string& item, double valu
   }
 }
 
-/// What people put their name to must be what the program stored: a row that was changed for a moment binds for good.
-void require_vouched(sqlite3* connection, const std::string& uuid, std::int64_t attempt, const std::string& what) {
-  if (!attempt_vouched(connection, attempt))
-    throw InputError("attempt " + uuid + ": was changed after it was finished and cannot be " + what +
-                     "; see trocar db check");
-}
-
 /// The attempts that it names are this trainee's, and as they were stored.
 void check_named(sqlite3* connection, std::int64_t trainee, const nlohmann::json& attempts) {
   if (!attempts.is_array()) return;
@@ -89,7 +83,7 @@ void check_named(sqlite3* connection, std::int64_t trainee, const nlohmann::json
     const std::string uuid = one.is_string() ? one.get<std::string>() : "";
     if (!row.bind(uuid).step() || row.integer(1) != trainee)
       throw InputError("certificate: attempt " + uuid + " is none of this trainee's");
-    require_vouched(connection, uuid, row.integer(0), "certified");
+    require_vouched(connection, row.integer(0), "certified");
     row.run();
   }
 }
@@ -292,7 +286,7 @@ Signature AssessmentStore::sign(const std::string& attempt_uuid, const std::stri
   AnchoredTransaction transaction(*database_);
   require_signature(*database_, author.account_uuid);
   const FinishedAttempt attempt = finished_attempt(connection, attempt_uuid);
-  require_vouched(connection, attempt_uuid, attempt.id, "signed");
+  require_vouched(connection, attempt.id, "signed");
   refuse_second(connection, attempt.id, meaning, author);
   const Signature signature{next_row_uuid(connection, "signature"),
                             attempt.row_hash,
@@ -342,7 +336,7 @@ VerdictOverride AssessmentStore::override_verdict(const std::string& attempt_uui
     throw InputError("attempt " + attempt_uuid +
                      ": was ended by the device or is void; it counts for nothing, so there is nothing to decide");
   }
-  require_vouched(connection, attempt_uuid, attempt.id, "decided");
+  require_vouched(connection, attempt.id, "decided");
   sql::Statement insert(
       connection,
       "INSERT INTO verdict_override (uuid, attempt_id, row_hash, author, printed, passed, reason, utc)"

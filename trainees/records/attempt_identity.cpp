@@ -68,6 +68,14 @@ std::string utc_now() {
   return text;
 }
 
+bool is_name_of_attempt(const std::string& uuid) {
+  return uuid.size() == 36 && uuid.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
+void require_name_of_attempt(const std::string& uuid) {
+  if (!is_name_of_attempt(uuid)) throw InputError("attempt " + uuid + ": has no name of trocar's; see trocar db check");
+}
+
 std::string identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key) {
   static const std::string kQuery = "SELECT a.uuid, " + origin_sql("a.uuid", "t.uuid") +
                                     ", exercise_id, ruleset_sha256, level, seed, board, hand FROM attempt a"

@@ -18,6 +18,11 @@ std::string make_uuid_after(const std::string& before);
 /// "2026-03-01T09:30:00.123Z"
 std::string utc_now();
 
+/// A UUID as this program makes them, which can be the name of a file: nothing that leads out of a folder.
+bool is_name_of_attempt(const std::string& uuid);
+/// @throws InputError: none.
+void require_name_of_attempt(const std::string& uuid);
+
 /// What an attempt began with and what its recording says of it, as JSON: attempt, trainee (where it began), exercise,
 /// ruleset, level, seed, board, hand, and the key given. @throws InputError: no such attempt.
 std::string identity_of(sqlite3* connection, const std::string& uuid, const std::string& public_key);

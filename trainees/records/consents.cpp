@@ -4,6 +4,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
@@ -27,6 +28,8 @@ Consent ConsentStore::record(const std::string& trainee, const std::string& purp
   if (!given && known_trainee(connection, trainee) && !holds(trainee, purpose))
     throw InputError("consent of " + trainee + " to \"" + purpose + "\": none is given, so none can be withdrawn");
   {
+    sql::Statement person(connection, "SELECT trainee_id FROM person WHERE code = ?");
+    if (person.bind(trainee).step()) require_person(connection, person.integer(0), trainee);
     sql::Statement insert(connection,
                           "INSERT INTO consent (uuid, trainee_id, purpose, given, text, author, utc)"
                           " SELECT ?, trainee_id, ?, ?, ?, ?, ? FROM person WHERE code = ? RETURNING 1");

@@ -52,6 +52,7 @@ TraineeRow trainee_row(sqlite3* connection, const std::string& code) {
   sql::Statement row(connection,
                      "SELECT t.id, t.uuid FROM person p JOIN trainee t ON t.id = p.trainee_id WHERE p.code = ?");
   if (!row.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none");
+  require_person(connection, row.integer(0), code);
   return {row.integer(0), row.text(1)};
 }
 

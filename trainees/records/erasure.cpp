@@ -128,11 +128,6 @@ std::vector<fs::path> files_of(const KeptRecording& recording) {
   return files;
 }
 
-/// As the program makes them: nothing that leads out of a folder.
-bool is_name_of_attempt(const std::string& uuid) {
-  return uuid.size() == 36 && uuid.find_first_not_of("0123456789abcdef-") == std::string::npos;
-}
-
 /// Only what is known to be the attempt's: the row that names it may have been changed, and a name given by --record
 /// may stand for another file by now.
 void remove_recording(const fs::path& database, const KeptRecording& recording, const fs::path& film,

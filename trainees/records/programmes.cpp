@@ -2,6 +2,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
@@ -87,6 +88,7 @@ Assignment ProgrammeStore::assign(const std::string& programme, const std::strin
   AnchoredTransaction transaction(*database_);
   sql::Statement person(connection, "SELECT trainee_id FROM person WHERE code = ?");
   if (!trainee.empty() && !person.bind(trainee).step()) throw InputError("trainee \"" + trainee + "\": there is none");
+  if (!trainee.empty()) require_person(connection, person.integer(0), trainee);
   sql::Statement member(connection, "SELECT 1 FROM membership WHERE group_name = ? LIMIT 1");
   if (!group.empty() && !member.bind(group).step()) throw InputError("group \"" + group + "\": nobody is in it");
   if (const auto before = held(connection, programme, trainee, group)) {

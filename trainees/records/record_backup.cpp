@@ -4,11 +4,13 @@
 
 #include <memory>
 
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/files/size_text.h"
 #include "trainees/integrity/anchor_file.h"
 #include "trainees/integrity/station_key.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/replica_facts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -18,15 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Named {
-  std::string uuid;
+  std::string uuid, sha256;
   fs::path file;
 };
 
 /// Files that the attempts of a connection name, as they lie beside `database`.
 std::vector<Named> named_recordings(sqlite3* connection, const fs::path& database) {
   std::vector<Named> out;
-  sql::Statement rows(connection, "SELECT recording_path, uuid FROM attempt WHERE recording_path <> '' ORDER BY id");
-  while (rows.step()) out.push_back({rows.text(1), recording_here(database, rows.text(0), rows.text(1))});
+  sql::Statement rows(
+      connection, "SELECT recording_path, uuid, recording_sha256 FROM attempt WHERE recording_path <> '' ORDER BY id");
+  while (rows.step()) out.push_back({rows.text(1), rows.text(2), recording_here(database, rows.text(0), rows.text(1))});
   return out;
 }
 
@@ -59,10 +62,13 @@ void require_room(const fs::path& to, std::uintmax_t bytes) {
 }
 
 /// Under the attempt's name: those that somebody chose may be the same in two folders.
-void copy_recordings(const std::vector<Named>& all, BackupReport& report) {
+void copy_recordings(const std::vector<Named>& all, const fs::path& database, BackupReport& report) {
   for (const Named& one : all) {
     std::error_code error;
-    if (!fs::is_regular_file(one.file, error)) {
+    // A row may have been changed to name any file of whoever makes the backup.
+    const bool own = one.file == fetched_recording(database, one.uuid);
+    if (!is_name_of_attempt(one.uuid) || !fs::is_regular_file(one.file, error) ||
+        (!own && digest::of_readable_file(one.file) != one.sha256)) {
       report.missing.push_back(one.file);
       continue;
     }
@@ -114,7 +120,7 @@ BackupReport back_up(const Database& database, const fs::path& to, BackedUp what
     require_room(folder, size_of(all));
     report.recordings = folder;
     if (!make_owner_folders(folder)) throw EnvironmentError(folder.string() + ": cannot be made");
-    copy_recordings(all, report);
+    copy_recordings(all, database.file(), report);
   }
   begun.whole = true;
   return report;

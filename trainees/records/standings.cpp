@@ -2,6 +2,7 @@
 
 #include "haptics/input_error.h"
 #include "trainees/integrity/anchored_transaction.h"
+#include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
@@ -30,6 +31,7 @@ int StandingStore::set_active(const std::set<std::string>& codes, bool active, c
     sql::Statement who(connection, "SELECT trainee_id FROM person WHERE code = ?");
     if (!who.bind(code).step()) throw InputError("trainee \"" + code + "\": there is none");
     const std::int64_t trainee = who.integer(0);
+    require_person(connection, trainee, code);
     if (is_active(connection, trainee) == active) continue;
     sql::Statement running(connection, "SELECT 1 FROM attempt WHERE status = 'running' AND trainee_id = ?");
     if (!active && running.bind(trainee).step())

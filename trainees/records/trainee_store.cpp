@@ -79,7 +79,10 @@ Trainee TraineeStore::ensure_trainee(const std::string& code) {
 std::int64_t TraineeStore::ensure_id(const std::string& code) {
   check_trainee_code(code);
   sql::Statement known(connection_, "SELECT trainee_id FROM person WHERE code = ?");
-  if (known.bind(code).step()) return known.integer(0);
+  if (known.bind(code).step()) {
+    require_person(connection_, known.integer(0), code);
+    return known.integer(0);
+  }
   require_no_replica(connection_);
   const std::string uuid = make_uuid();
   sql::Statement trainee(connection_, "INSERT INTO trainee (uuid, created_utc) VALUES (?, ?)");

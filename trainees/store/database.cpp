@@ -169,6 +169,10 @@ void Database::anchor_beginning() {
 void Database::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 void Database::require_own_schema() {
+  if (!trail_goes_on(connection_.get()))
+    throw InputError(file_.string() +
+                     ": nothing is written to it: its audit trail no longer holds what this program"
+                     " saw of it; start anew, and see trocar db check");
   // What acts is what SQLite has read into memory, which need not be what the file says now, nor what its number says.
   // It prepares a statement anew whenever it has read the schema anew, and counts how often.
   const auto times_read = [this] {

@@ -24,6 +24,7 @@
 #include "trainees/exchange/export/table_export.h"
 #include "trainees/exchange/export/trace_tables.h"
 #include "trainees/exchange/export/xapi_export.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/cohort.h"
 
@@ -85,6 +86,7 @@ int each_recording(Database& database, const ExportChoice& choice, std::ostream&
 int write_traces(Database& database, const ExportChoice& choice, PendingExport& folder, std::ostream& err) {
   return each_recording(database, choice, err, [&](const AttemptResult& attempt, const Recording& recording) {
     if (!recording.end) throw InputError("its recording was cut off");
+    require_name_of_attempt(attempt.uuid);
     const RecordedSetup recorded = parse_scene_json(recording.session, attempt.recording_path);
     const Exercise& exercise = recorded.setup.exercise;
     const std::string at = file_name_of(attempt.exercise_id) + "_" + attempt.uuid + "/";

@@ -9,6 +9,7 @@
 #include "app/session/recording/event_codec.h"
 #include "app/session/recording/recording_header.h"
 #include "app/session/recording/seal.h"
+#include "trainees/files/owner_file.h"
 
 namespace trocar {
 namespace {
@@ -207,8 +208,12 @@ class Parser {
 }  // namespace
 
 Recording read_recording(const std::filesystem::path& file, Reading reading) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such recording");
+  if (std::filesystem::file_size(file, error) > kLargestRecording)
+    throw InputError(file.string() + ": is larger than any recording");
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": no such recording");
+  if (!in) throw InputError(file.string() + ": no such recording");
   const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   return parse_recording(bytes, file.string(), reading);
 }

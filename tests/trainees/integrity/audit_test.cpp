@@ -98,8 +98,22 @@ TEST_F(Audit, AnotherAttemptInThePlaceOfTheNewestIsNoticed) {
   remove_newest(true);
   {
     Database database(file_);
+    EXPECT_NE(message_of<InputError>([&] {
+                store_attempt(database, sample_start(), sample_result(99));
+              }).find("no longer holds what this program saw"),
+              std::string::npos);
+  }
+  // A program that saw nothing of it goes on.
+  const fs::path elsewhere = folder_ / "elsewhere.db";
+  const auto move = [](const fs::path& from, const fs::path& to) {
+    for (const char* part : {"", ".anchor", ".key"}) fs::rename(from.string() + part, to.string() + part);
+  };
+  move(file_, elsewhere);
+  {
+    Database database(elsewhere);
     store_attempt(database, sample_start(), sample_result(99));
   }
+  move(elsewhere, file_);
   EXPECT_NE(problems().find("entry 10 of "), std::string::npos) << problems();
   EXPECT_NE(problems().find("is not the one that was anchored"), std::string::npos) << problems();
 }
@@ -168,7 +182,9 @@ TEST_F(Audit, EntriesUnderAnotherKeyAreNoticedWhateverFollowsThem) {
   fs::copy_file(key_path(folder_ / "other.db"), key);
   {
     Database database(file_);
-    store_attempt(database, sample_start(), sample_result(99));
+    EXPECT_NE(message_of<InputError>([&] { store_attempt(database, sample_start(), sample_result(99)); }), "")
+        << "the person's row is signed with another key";
+    store_attempt(database, sample_start("T-other"), sample_result(99));
   }
   fs::remove(key);
   fs::rename(kept, key);
@@ -176,7 +192,7 @@ TEST_F(Audit, EntriesUnderAnotherKeyAreNoticedWhateverFollowsThem) {
     Database database(file_);
     store_attempt(database, sample_start(), sample_result());
   }
-  EXPECT_EQ(problems(), "audit trail: entry 11 was not signed with the station's key, nor 1 of those after it\n");
+  EXPECT_EQ(problems(), "audit trail: entry 11 was not signed with the station's key, nor 3 of those after it\n");
 }
 
 TEST_F(Audit, AnAttemptThatWasBegunAndDeletedIsNoticed) {

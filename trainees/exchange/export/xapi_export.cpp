@@ -1,4 +1,5 @@
 #include "trainees/exchange/export/xapi_export.h"
+#include "trainees/integrity/attempt_chain.h"
 
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -74,6 +75,7 @@ std::vector<XapiSubject> xapi_subjects(Database& database, const ExportChoice& c
   }
   std::vector<XapiSubject> all;
   for (const std::int64_t row : choice.attempts) {
+    require_vouched(database.connection(), row, "stated");
     const XapiAttempt attempt = read_xapi_attempt(database, row, pass_mark);
     std::string text = xapi_statement(attempt, setting);
     all.push_back({"attempt " + attempt.result.uuid, XapiStatement{json::parse(text)["id"], std::move(text)}});
@@ -98,6 +100,7 @@ void write_cmi5(Database& database, const ExportChoice& choice, const Cmi5Launch
   if (choice.trainees.size() != 1)
     throw InputError("a cmi5 launch is of one trainee, but the attempts are of several: say which trainee");
   StatementList list(out);
+  require_vouched(database.connection(), choice.attempts.back(), "stated");
   const XapiAttempt attempt = read_xapi_attempt(database, choice.attempts.back(), pass_mark);
   for (const std::string& statement : cmi5_statements(attempt, launch)) {
     require_sound(statement, "attempt " + attempt.result.uuid);

@@ -95,7 +95,7 @@ class BatchReader {
       return;
     }
     const bool erased = about.integer(4) != 0;
-    if (!erased && !attempt_holds(connection_, about.integer(0))) {
+    if (!erased && !attempt_vouched(connection_, about.integer(0))) {
       batch_->problems.push_back("attempt " + uuid + " was changed after it was finished; not pushed");
       return;
     }

@@ -13,6 +13,7 @@
 #include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::report_files_test {
@@ -177,10 +178,7 @@ TEST_F(ReportFiles, AWithdrawnCertificateSaysSo) {
 }
 
 TEST_F(ReportFiles, AnErasedPersonHasNoNameInAnyFile) {
-  sql::Statement(database_.connection(), "UPDATE person SET name = ? WHERE code = ?")
-      .bind("Anna M\xC3\xBCller")
-      .bind(trainee_)
-      .run();
+  TraineeStore(database_).edit(trainee_, "Anna M\xC3\xBCller", {}, "");
   const std::string uuid = certify();
   EXPECT_TRUE(read("/report/certificate/" + uuid + ".pdf").holds("Anna M\xC3\xBCller"));
   EXPECT_TRUE(read("/report/trainee/" + trainee_ + ".pdf").holds("Anna M\xC3\xBCller"));
