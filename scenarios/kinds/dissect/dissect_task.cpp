@@ -8,6 +8,7 @@
 namespace trocar {
 namespace {
 
+constexpr double kFarthest_m = 0.1;    // of the tip off the organ, infinite where none is near: an event holds a number
 constexpr double kDissectToldFor = 3;  // s for which a mistake is shown
 constexpr double kTellEvery = 1;       // s of current from one event to the next
 constexpr double kAimOver = 0.0035;    // m over the least lift, to where a strand is asked to be lifted
@@ -139,7 +140,7 @@ void DissectTask::update(const TaskInput& input, EventLog& log) {
   now_s_ = log.t_s;
   if (finished() || !input.tissue) return;
   const TissueFrame& frame = *input.tissue;
-  gap_m_ = frame.tip_gap_m;
+  gap_m_ = std::min(frame.tip_gap_m, kFarthest_m);
   if (cut_m2_ < 0) cut_m2_ = frame.surgery.cut_m2;
   follow_strands(frame, input.stylus.pedal, log);
   follow_current(input, log);

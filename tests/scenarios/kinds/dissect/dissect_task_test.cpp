@@ -3,6 +3,7 @@
 #include "scenarios/kinds/dissect/dissect_task.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -147,6 +148,18 @@ TEST(DissectTask, IsDoneOnceAllStrandsAreDividedAndAllVesselsSealed) {
   EXPECT_DOUBLE_EQ(bench.metric("spurted_ml"), 9);
   EXPECT_NEAR(bench.metric("strand_current_s"), 1, 0.03);
   EXPECT_DOUBLE_EQ(bench.metric("sealed_late"), 0);
+}
+
+/// Torn, or divided, where no organ is near: an event that held no number would void the attempt.
+TEST(DissectTask, AStrandPartedFarFromAnyOrganIsTold) {
+  Bench bench;
+  bench.divide(0, INFINITY);
+  bench.at(bench.place(1), INFINITY);
+  bench.part(1, DuctMark::Kind::kTorn);
+  EXPECT_EQ(bench.count(event_type::kStrandDivided, Severity::kInfo), 1);
+  EXPECT_EQ(bench.count(event_type::kStrandDivided, Severity::kMinor), 1);
+  EXPECT_GE(bench.count(event_type::kStrandLifted, Severity::kInfo), 1);
+  for (const Event& event : bench.director.events()) EXPECT_TRUE(std::isfinite(event.value)) << event.type;
 }
 
 TEST(DissectTask, AStrandDividedTooLowOrTornIsNotLifted) {
