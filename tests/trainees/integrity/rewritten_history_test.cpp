@@ -445,6 +445,20 @@ TEST_F(RewrittenHistory, AWitnessThatWasChangedIsNone) {
   EXPECT_THROW(witnessed(), InputError);
 }
 
+/// Nor is one without a signature, and none is made of a trail that is not whole.
+TEST_F(RewrittenHistory, AHeadThatNothingSignsIsNoWitness) {
+  const std::string head = [&] {
+    const Database database(file_);
+    return audit_head(database.connection()).row_hash;
+  }();
+  write_file(witness_, "{\"format\": \"trocar-head-1\", \"position\": 10, \"row_hash\": \"" + head +
+                           "\", \"utc\": \"\", \"key\": \"\", \"signature\": \"\"}");
+  EXPECT_NE(message_of<InputError>([&] { witnessed(); }).find("is not signed"), std::string::npos);
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE audit SET detail = 'x' WHERE position = 3"), "");
+  const Database database(file_);
+  EXPECT_NE(message_of<InputError>([&] { exported_head(database); }).find("is not whole"), std::string::npos);
+}
+
 TEST_F(RewrittenHistory, ANewKeyIsToldAndWhatItSignsHolds) {
   Database database(file_);
   fs::remove(key_path(file_));

@@ -53,6 +53,22 @@ TEST_F(RecordBackup, TakesTheRecordingsAlongAndIsSoundWithoutTheOriginal) {
   EXPECT_EQ(problems(to), "");
 }
 
+/// A row may have been changed to name any file, and a UUID to lead out of the folder.
+TEST_F(RecordBackup, TakesNoFileThatOnlyARowNames) {
+  const AttemptId id = recorded("motion"), other = recorded("other motion");
+  const fs::path secret = folder_ / "secret.txt", to = folder_ / "disk" / "copy.backup";
+  std::ofstream(secret) << "private";
+  ASSERT_EQ(
+      run_without_triggers(folder_ / "t.db",
+                           "UPDATE attempt SET recording_path = '" + secret.string() + "' WHERE uuid = '" + id.uuid +
+                               "'; UPDATE attempt SET uuid = '../../escaped' WHERE uuid = '" + other.uuid + "'"),
+      "");
+  const BackupReport made = back_up(database_, to, BackedUp::kWithRecordings);
+  EXPECT_EQ(made.files, 0U);
+  EXPECT_EQ(made.missing.size(), 2U);
+  EXPECT_FALSE(fs::exists(folder_ / "escaped.trec"));
+}
+
 TEST_F(RecordBackup, LeavesThemOutWhenAsked) {
   const AttemptId id = recorded("motion");
   const fs::path to = folder_ / "disk" / "copy.backup";

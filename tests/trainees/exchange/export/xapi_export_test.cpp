@@ -4,6 +4,7 @@
 
 #include "tests/trainees/exchange/export/export_samples.h"
 #include "tests/trainees/records/cohort_samples.h"
+#include "tests/trainees/records/store_samples.h"
 #include "trainees/exchange/export/xapi_export.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
@@ -53,6 +54,16 @@ TEST(XapiExport, OneStatementAFinishedAttempt) {
   EXPECT_EQ(read_xapi_attempt(database, first.row, {}).pass_at, std::nullopt)
       << "no reader of rulesets, no mastery score";
   EXPECT_THROW(read_xapi_attempt(database, 99, {}), InputError);
+}
+
+using XapiExportOnDisk = TemporaryFolder;
+
+TEST_F(XapiExportOnDisk, StatesNoScoreThatSomebodyChanged) {
+  Database database(folder_ / "t.db");
+  const AttemptId id = store_attempt(database, sample_start("A"), sample_result(20));
+  EXPECT_EQ(written(database, {}, mark_of_70).size(), 1u);
+  ASSERT_EQ(run_without_triggers(folder_ / "t.db", "UPDATE score SET value = 99, passed = 1"), "");
+  EXPECT_NE(message_of<InputError>([&] { written(database, {}, mark_of_70); }).find(id.uuid), std::string::npos);
 }
 
 TEST(XapiExport, TheNewestSignersAccountIsTheInstructor) {
