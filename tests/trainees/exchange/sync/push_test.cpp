@@ -10,6 +10,7 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/demo_record.h"
+#include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::push_test {
@@ -82,7 +83,7 @@ TEST_F(Stations, NumbersAndTextsArriveBitForBit) {
 TEST_F(Stations, NobodyIsNamedUnlessAsked) {
   Database database = station("a");
   practise(database, "T-Zimtstern", 2);
-  sql::execute(database.connection(), "UPDATE person SET name = 'Anna Zimtstern', email = 'anna@zimtstern'");
+  TraineeStore(database).edit("T-Zimtstern", "Anna Zimtstern", "anna@zimtstern", "");
   ConsentStore(database).record("T-Zimtstern", "research", true, "I, Anna Zimtstern, agree.", kTeacher);
   const Account own =
       AccountStore(database).add("zimtstern", "Anna Zimtstern", Role::kTrainee, "T-Zimtstern", "580274", "");
@@ -98,7 +99,7 @@ TEST_F(Stations, NobodyIsNamedUnlessAsked) {
             (Counts{{"person", 1}, {"consent", 1}, {"signature", 1}, {"rating", 1}}));
   EXPECT_EQ(one("SELECT code, name, email FROM person"), "T-Zimtstern|Anna Zimtstern|anna@zimtstern");
   EXPECT_TRUE(push_to_central(database, named).added.empty());
-  sql::execute(database.connection(), "UPDATE person SET name = 'Anna Stern'");
+  TraineeStore(database).edit("T-Zimtstern", "Anna Stern", {}, "");
   EXPECT_EQ(push_to_central(database, named).added, (Counts{{"person", 1}}));
   EXPECT_EQ(one("SELECT name FROM person"), "Anna Stern");
 }
