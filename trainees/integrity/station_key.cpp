@@ -19,9 +19,24 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTitle = "Trocar, key of a station: keep it secret";
 
-void require_secret(const fs::path& file) {
-  struct stat about {};
-  if (::stat(file.c_str(), &about) == 0 && (about.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+/// The key that was read last: each entry of the trail asks for it, and deriving it costs as much as signing. Good for
+/// as long as the file is the same one, unchanged.
+struct KeptKey {
+  std::string file;
+  dev_t device = 0;
+  ino_t inode = 0;
+  timespec changed = {};
+  std::optional<SigningKey> key = {};
+
+  bool holds(const fs::path& path, const struct stat& about) const {
+    return key && file == path && device == about.st_dev && inode == about.st_ino &&
+           changed.tv_sec == about.st_ctim.tv_sec && changed.tv_nsec == about.st_ctim.tv_nsec;
+  }
+};
+thread_local KeptKey kept_key;
+
+void require_secret(const fs::path& file, const struct stat& about) {
+  if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw EnvironmentError(file.string() +
                            ": the station's key can be read by others; chmod 600 it, and if others may "
                            "have read it, make a new one: trocar db key --renew");
@@ -33,9 +48,10 @@ fs::path key_path(const fs::path& database) { return database.string() + ".key";
 
 std::optional<SigningKey> station_key(const fs::path& database) {
   const fs::path file = key_path(database);
-  std::error_code error;
-  if (database.empty() || !fs::exists(file, error)) return std::nullopt;
-  require_secret(file);
+  struct stat about {};
+  if (database.empty() || ::stat(file.c_str(), &about) != 0) return std::nullopt;
+  if (kept_key.holds(file, about)) return kept_key.key;
+  require_secret(file, about);
   std::ifstream in(file);
   if (!in) throw EnvironmentError(file.string() + ": the station's key cannot be read: " + std::strerror(errno));
   std::string title, seed;
@@ -43,6 +59,7 @@ std::optional<SigningKey> station_key(const fs::path& database) {
   std::getline(in, seed);
   const auto key = title == kTitle ? SigningKey::of_seed(seed) : std::nullopt;
   if (!key) throw InputError(file.string() + ": is not the key of a station");
+  kept_key = {file.string(), about.st_dev, about.st_ino, about.st_ctim, key};
   return key;
 }
 

@@ -142,8 +142,7 @@ void remove_recording(const fs::path& database, const KeptRecording& recording, 
   else if (error)
     report.left.push_back(film.string() + ": cannot be removed: " + error.message());
   if (!fs::exists(recording.file, error)) return;
-  const bool own_name =
-      recording.file.stem() == recording.uuid && recording.file.parent_path() == recordings_folder(database);
+  const bool own_name = recording.file == fetched_recording(database, recording.uuid);
   if (!own_name && digest::of_readable_file(recording.file) != recording.sha256) {
     report.left.push_back(recording.file.string() + ": is not what attempt " + recording.uuid +
                           " recorded; it was left");

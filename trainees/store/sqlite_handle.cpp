@@ -200,4 +200,13 @@ void Transaction::commit() {
   open_ = false;
 }
 
+ReadSnapshot::ReadSnapshot(sqlite3* connection)
+    : connection_(connection), own_(sqlite3_get_autocommit(connection) != 0) {
+  if (own_) Statement(connection, "BEGIN").run();
+}
+
+ReadSnapshot::~ReadSnapshot() {
+  if (own_) sqlite3_exec(connection_, "ROLLBACK", nullptr, nullptr, nullptr);  // nothing was written
+}
+
 }  // namespace trocar::sql

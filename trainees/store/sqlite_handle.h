@@ -96,4 +96,18 @@ class Transaction {
   bool open_ = true;
 };
 
+/// All reads while it lives see one state of the database; nothing is to be written meanwhile. Statements cost less so:
+/// each by itself takes the lock, and looks whether anybody has written. Within another's transaction it is that one's.
+class ReadSnapshot {
+ public:
+  explicit ReadSnapshot(sqlite3* connection);
+  ~ReadSnapshot();
+  ReadSnapshot(const ReadSnapshot&) = delete;
+  ReadSnapshot& operator=(const ReadSnapshot&) = delete;
+
+ private:
+  sqlite3* connection_;
+  bool own_;
+};
+
 }  // namespace trocar::sql

@@ -27,6 +27,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/cohort.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
 namespace {
@@ -145,7 +146,7 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   const bool folder = options.format != "json" && options.format != "xapi";
   PendingExport pending(options.out, folder ? Shape::kFolder : Shape::kFile);  // before minutes of work
   Database database = open_database(options.database, OpenMode::kExisting, err);
-  const ReadSnapshot snapshot(database);
+  const sql::ReadSnapshot snapshot(database.connection());
   const ExportChoice choice = choose_attempts(database, options.filter);
   std::size_t attempts = options.cmi5.empty() ? choice.attempts.size() : 1;
   if (options.format == "csv") write_csv_files(database, choice, pending);

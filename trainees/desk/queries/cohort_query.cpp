@@ -299,6 +299,7 @@ std::vector<CohortLine> cohort_lines(Database& database, const ProgressRules& ru
                                      const std::string& now_utc) {
   // The indices that are read here fit; SQLite's own 2 MB would read them from the file at every call.
   sql::execute(database.connection(), "PRAGMA cache_size = -65536");
+  const sql::ReadSnapshot snapshot(database.connection());
   return CohortPass(database, rules, filter, now_utc).lines();
 }
 

@@ -53,9 +53,8 @@ int Harm::count() const {
 
 void read_harm(sqlite3* connection, const std::vector<std::int64_t>& attempts, Harm& harm) {
   sql::Statement events(connection,
-                        "SELECT k.type, k.severity = 'critical', count(*) FROM event_row r JOIN event_kind k ON k.id = "
-                        "r.kind_id WHERE r.id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575 AND k.severity IN ('major', "
-                        "'critical') GROUP BY r.kind_id");
+                        "SELECT k.type, k.severity = 'critical' FROM event_row r JOIN event_kind k ON k.id = r.kind_id"
+                        " WHERE r.id BETWEEN ?1 << 20 AND ?1 << 20 | 1048575 AND k.severity IN ('major', 'critical')");
   sql::Statement gates(
       connection,
       "SELECT p.name, p.value, p.raw, p.unit, p.full_at, p.zero_at, c.below FROM score s JOIN score_cap"
@@ -66,8 +65,7 @@ void read_harm(sqlite3* connection, const std::vector<std::int64_t>& attempts, H
   for (const std::int64_t attempt : attempts) {
     events.bind(attempt);
     while (events.step())
-      if (!is_end(events.text(0)))
-        counted[{events.integer(1) != 0, events.text(0)}] += static_cast<int>(events.integer(2));
+      if (!is_end(events.text(0))) ++counted[{events.integer(1) != 0, events.text(0)}];
     events.run();
     gates.bind(attempt);
     while (gates.step()) {

@@ -212,6 +212,7 @@ bool to_do(const ProgrammeCell& cell) {
 ProgrammeGrid programme_grid(Database& database, const std::string& programme, const GridFilter& filter,
                              const std::string& now_utc) {
   sql::execute(database.connection(), "PRAGMA cache_size = -65536");  // as cohort_lines()
+  const sql::ReadSnapshot snapshot(database.connection());
   return GridMaker(database, programme, filter, now_utc).made();
 }
 

@@ -42,16 +42,4 @@ ExportChoice choose_attempts(Database& database, const ExportFilter& filter) {
   return choice;
 }
 
-ReadSnapshot::ReadSnapshot(Database& database) : connection_(database.connection()) {
-  sql::execute(connection_, "BEGIN");
-}
-
-ReadSnapshot::~ReadSnapshot() {
-  try {
-    sql::execute(connection_, "ROLLBACK");  // nothing was written
-  } catch (const std::exception&) {
-    // SQLite has ended it already
-  }
-}
-
 }  // namespace trocar

@@ -26,16 +26,4 @@ struct ExportChoice {
 /// @throws InputError: no such trainee, group, exercise or attempt; no finished attempt fits.
 ExportChoice choose_attempts(Database& database, const ExportFilter& filter);
 
-/// All reads while it lives see one state of the database.
-class ReadSnapshot {
- public:
-  explicit ReadSnapshot(Database& database);
-  ~ReadSnapshot();
-  ReadSnapshot(const ReadSnapshot&) = delete;
-  ReadSnapshot& operator=(const ReadSnapshot&) = delete;
-
- private:
-  sqlite3* connection_;
-};
-
 }  // namespace trocar

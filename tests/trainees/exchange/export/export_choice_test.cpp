@@ -25,7 +25,7 @@ TEST_F(ExportChoices, OneStateWhateverIsWrittenMeanwhile) {
   store_attempt(database, sample_start("A"), sample_result());
   Database other(folder_ / "t.db");
   {
-    const ReadSnapshot snapshot(database);
+    const sql::ReadSnapshot snapshot(database.connection());
     const std::string before = document(database);
     store_attempt(other, sample_start("B"), sample_result());
     EXPECT_EQ(document(database), before);
@@ -41,7 +41,7 @@ TEST_F(ExportChoices, ASnapshotEndsWithAnError) {
   store_attempt(database, sample_start("A"), sample_result());
   EXPECT_THROW(
       {
-        const ReadSnapshot snapshot(database);
+        const sql::ReadSnapshot snapshot(database.connection());
         choose_attempts(database, {"nobody", "", ""});
       },
       InputError);

@@ -10,6 +10,7 @@
 #include "trainees/exchange/export/table_export.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar::table_export_test {
 namespace {
@@ -297,7 +298,7 @@ TEST_F(TableExport, ACohortComesOutWhole) {
   plan.events = 9;
   fill_cohort(database, plan);
   PendingExport pending(folder_ / "cohort", PendingExport::Shape::kFolder);
-  const ReadSnapshot snapshot(database);
+  const sql::ReadSnapshot snapshot(database.connection());
   const ExportChoice choice = choose_attempts(database, {});
   write_csv_files(database, choice, pending);
   pending.commit();
