@@ -284,12 +284,12 @@ def force_max(attempt):
     return max(s["force"] for s in attempt.samples) if touched else None
 
 
-def soft_impulse(attempt):
-    """In contact; a sample stands for half of the way to its neighbours."""
+def beyond_soft(attempt, part):
+    """In contact, beyond the soft limit; a sample stands for half of the way to its neighbours."""
     t, total, soft = attempt.times, 0.0, attempt.context["soft_force_n"]
     for i, sample in enumerate(attempt.samples):
         weight = (t[min(i + 1, len(t) - 1)] - t[max(i - 1, 0)]) / 2
-        total += weight * max(0.0, sample["force"] - soft) if sample["contact"] else 0
+        total += weight * part(sample["force"], soft) if sample["contact"] and sample["force"] > soft else 0
     return total if any(s["contact"] for s in attempt.samples) else None
 
 
@@ -440,7 +440,8 @@ METRICS = {
     "wall_contacts": lambda a: a.count("WALL_CONTACT") if a.count("HORIZON_KEPT") else None,
     "view_jerks": lambda a: last_told(a, "VIEW_JERKS"),
     "force_max_n": force_max,
-    "soft_impulse_ns": soft_impulse,
+    "soft_impulse_ns": lambda a: beyond_soft(a, lambda force, soft: force - soft),
+    "pressed_impulse_ns": lambda a: beyond_soft(a, lambda force, soft: force),
     "grip_mean_n": grip_mean,
     "time_to_expose_s": lambda a: first_told(a, "EXPOSED"),
     "holds_lost": holds_lost,

@@ -95,8 +95,8 @@ Value force_volume(const std::vector<Vec3>& forces) {
 void add_size_metrics(const Samples& samples, const ScoringContext& context, MetricSink& sink) {
   const std::vector<double> weight = weights(samples);
   std::vector<Vec3> cloud;
-  double time = 0, sum = 0, squares = 0, soft_time = 0, above = 0, largest = 0, impulse = 0, largest_impulse = 0,
-         running = 0;
+  double time = 0, sum = 0, squares = 0, soft_time = 0, above = 0, pressed = 0, largest = 0, impulse = 0,
+         largest_impulse = 0, running = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double force = force_of(samples[i]), w = weight[i];
     largest = std::max(largest, force);
@@ -108,8 +108,10 @@ void add_size_metrics(const Samples& samples, const ScoringContext& context, Met
     time += w;
     sum += force * w;
     squares += force * force * w;
-    if (force > context.soft_force_n) soft_time += w;
-    above += std::max(0.0, force - context.soft_force_n) * w;
+    if (force <= context.soft_force_n) continue;
+    soft_time += w;
+    above += (force - context.soft_force_n) * w;
+    pressed += force * w;
   }
   const auto value = [&](double x) { return time > 0 ? Value(x) : std::nullopt; };
   const double mean = time > 0 ? sum / time : 0, mean_square = time > 0 ? squares / time : 0;
@@ -123,6 +125,7 @@ void add_size_metrics(const Samples& samples, const ScoringContext& context, Met
   sink.push_back({"force_volume_n3", force_volume(cloud), "N^3"});
   sink.push_back({"soft_force_share", value(time > 0 ? soft_time / time : 0), "1"});
   sink.push_back({"soft_impulse_ns", value(above), "N s"});
+  sink.push_back({"pressed_impulse_ns", value(pressed), "N s"});
 }
 
 void add_rate_metric(const Trace& trace, MetricSink& sink) {

@@ -86,6 +86,8 @@ constexpr MetricDefinition kCatalogue[] = {
      "time with |F| > soft limit / contact time", kLess, kForce},
     {"soft_impulse_ns", "N s", "integral of the contact force beyond the soft force limit",
      "sum max(0, |F| - soft limit) dt over the time in contact", kLess, kForce},
+    {"pressed_impulse_ns", "N s", "integral of the contact force over the time beyond the soft force limit",
+     "sum |F| dt over the time in contact with |F| > soft limit", kLess, kForce},
     {"force_rate_max_n_per_s", "N/s", "steepest change of the contact force, filtered at 20 Hz",
      "max |dF/dt| after 20 Hz", kLess},
     {"in_band_share", "1", "share of the pressing time in which the force is in the wanted band",

@@ -157,7 +157,7 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
                : words("Try next: lift slowly until the pull is right, and keep still there.");
   if (is_band_share(m)) return in_band_advice(a);
   if (m == "force_max_n" && pulls) return words("Try next: lift in one slow move, and stop where the pull is right.");
-  if (m == "soft_impulse_ns")
+  if (m == "soft_impulse_ns" || m == "pressed_impulse_ns")
     return words("Try next: let the roll do the work, and press the point on only until it goes in.");
   if (m == "entry_error_m")
     return words("Try next: stop with the point just over the dot, look, and only then lower it.");
@@ -276,7 +276,7 @@ std::string count_of(const Advised& a, const DebriefRow& row) {
     return words(row.raw == 1 ? "Once pulled too hard." : "{0} times pulled too hard.", {row.value});
   if (m == "clip_errors") return words(row.raw == 1 ? "One mistake." : "{0} mistakes.", {row.value});
   if (m == "entry_error_m") return words("In {0} beside the dot on average.", {row.value});
-  if (m == "soft_impulse_ns") return words("{0} beyond the force limit.", {row.value});
+  if (m == "soft_impulse_ns" || m == "pressed_impulse_ns") return words("{0} beyond the force limit.", {row.value});
   if (m == "exit_error_m") return words("Out {0} beside the dot on average.", {row.value});
   if (m == "needle_angle_deg") return words("{0} off the needle's own way on average.", {row.value});
   if (m == "needle_redos") return words(row.raw == 1 ? "Once done again." : "{0} times done again.", {row.value});

@@ -23,7 +23,7 @@ bool among(std::string_view name, Names names) {
 ScoreGroup group_of(const SubscoreRule& rule) {
   const std::string m(plain_metric(rule.metric));
   if (rule.gate || among(m, {"excess_events", "critical_events", "tool_collisions", "crushed", "force_max_n",
-                             "soft_force_share", "soft_impulse_ns"}))
+                             "soft_force_share", "soft_impulse_ns", "pressed_impulse_ns"}))
     return ScoreGroup::kSafety;
   if (m == "time_s" || m == "time_per_target_s") return ScoreGroup::kTime;
   if (m.starts_with("path_") || m.ends_with("regrasps") ||

@@ -39,6 +39,7 @@ TEST(ForceMetrics, StepForcesGiveTheirMeanPeakAndImpulse) {
   EXPECT_NEAR(*value_of(metrics, "impulse_max_ns"), 2.0, 0.02);
   EXPECT_NEAR(*value_of(metrics, "soft_force_share"), 2.0 / 3, 0.01);
   EXPECT_NEAR(*value_of(metrics, "soft_impulse_ns"), 2 * (1.0 - context_of_e02().soft_force_n), 0.01);
+  EXPECT_NEAR(*value_of(metrics, "pressed_impulse_ns"), 2.0, 0.02) << "the 0.4 N stay under the limit";
 }
 
 TEST(ForceMetrics, VirtualCommandedAndDeliveredForceAreToldApart) {
@@ -95,9 +96,10 @@ TEST(ForceMetrics, VolumeOfAnEllipsoidOfForces) {
 
 TEST(ForceMetrics, AreUndefinedWithoutContact) {
   const auto metrics = compute_metrics(rest(3), whole_run(3), context_of_e02());
-  for (const char* name : {"force_max_n", "force_mean_n", "force_rms_n", "impulse_ns", "force_volume_n3",
-                           "force_rate_max_n_per_s", "in_band_share", "grip_max_n", "grip_in_band_share", "regrasps",
-                           "saturated_contact_share", "passivity_active_share", "soft_force_share", "soft_impulse_ns"})
+  for (const char* name :
+       {"force_max_n", "force_mean_n", "force_rms_n", "impulse_ns", "force_volume_n3", "force_rate_max_n_per_s",
+        "in_band_share", "grip_max_n", "grip_in_band_share", "regrasps", "saturated_contact_share",
+        "passivity_active_share", "soft_force_share", "soft_impulse_ns", "pressed_impulse_ns"})
     EXPECT_FALSE(value_of(metrics, name)) << name;
   EXPECT_DOUBLE_EQ(*value_of(metrics, "contact_time_s"), 0);
 }

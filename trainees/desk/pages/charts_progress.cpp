@@ -114,7 +114,7 @@ std::string own_point(const CurvePoint& point, const std::optional<double>& valu
                                          (by.empty()     ? ""
                                           : point.passed ? ", passed" + by
                                                          : ", not passed" + by)) +
-                            (point.number > 0 ? ", no. " + std::to_string(point.number) : "");
+                            (point.number > 0 ? ", number " + std::to_string(point.number) : "");
   return "<a href=\"/attempt/" + url_part(point.uuid) + "\"><title>" + escape_html(words) + "</title>" + mark + "</a>";
 }
 

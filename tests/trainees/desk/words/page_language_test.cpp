@@ -192,6 +192,8 @@ TEST_F(AllPages, EveryTextHasATranslation) {
     for (const std::string& html : pages()) {
       const std::string page = language.page(html, &asked);
       EXPECT_NE(page.find("<html lang=\"" + std::string(code) + "\""), std::string::npos);
+      std::smatch misread;
+      EXPECT_FALSE(std::regex_search(page, misread, std::regex("(nein|non)\\. [0-9]+"))) << misread.str();
     }
     for (const std::string& text : asked.unknown) EXPECT_TRUE(std::regex_match(text, kData)) << code << ": " << text;
   }
