@@ -38,6 +38,15 @@ bool known_type(std::uint32_t type) {
   return false;
 }
 
+/// A header of which all but the CRC is right.
+std::optional<ChunkHeader> likely_header_at(std::string_view file, std::size_t offset) {
+  const auto header = header_at(file, offset);
+  if (!header || !known_type(header->type) || header->length > kMaxChunkPayload || !chunk_fits(file, offset)) {
+    return std::nullopt;
+  }
+  return header;
+}
+
 std::uint32_t crc_of(std::string_view type_and_length, std::string_view payload) {
   uLong crc = crc32(0, nullptr, 0);
   crc = crc32_z(crc, reinterpret_cast<const Bytef*>(type_and_length.data()), type_and_length.size());
@@ -71,19 +80,23 @@ bool chunk_fits(std::string_view file, std::size_t offset) {
 }
 
 std::optional<Chunk> chunk_at(std::string_view file, std::size_t offset) {
-  const auto header = header_at(file, offset);
-  if (!header || !known_type(header->type) || header->length > kMaxChunkPayload || !chunk_fits(file, offset)) {
-    return std::nullopt;
-  }
+  const auto header = likely_header_at(file, offset);
+  if (!header) return std::nullopt;
   const Chunk chunk{static_cast<ChunkType>(header->type), offset,
                     file.substr(offset + kChunkHeaderSize, header->length)};
   if (crc_of(file.substr(offset, 8), chunk.payload) != header->crc) return std::nullopt;
   return chunk;
 }
 
-std::optional<std::size_t> find_chunk(std::string_view file, std::size_t from) {
-  for (std::size_t offset = from; offset + kChunkHeaderSize <= file.size(); ++offset) {
-    if (chunk_at(file, offset)) return offset;
+std::optional<std::size_t> ChunkSearch::next(std::size_t from) {
+  for (std::size_t offset = from; !gave_up_ && offset + kChunkHeaderSize <= file_.size(); ++offset) {
+    const auto header = likely_header_at(file_, offset);
+    if (!header) continue;
+    const std::uint64_t summed = kChunkHeaderSize + header->length;
+    gave_up_ = summed > left_;
+    if (gave_up_) break;
+    left_ -= summed;
+    if (chunk_at(file_, offset)) return offset;
   }
   return std::nullopt;
 }

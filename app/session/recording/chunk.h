@@ -56,7 +56,19 @@ std::optional<Chunk> chunk_at(std::string_view file, std::size_t offset);
 /// True when the file is long enough for the chunk that the header at `offset` announces.
 bool chunk_fits(std::string_view file, std::size_t offset);
 
-/// Offset of the next whole chunk at or after `from`: where reading can go on after damage.
-std::optional<std::size_t> find_chunk(std::string_view file, std::size_t from);
+/// Looks for whole chunks: where reading can go on after damage. It gives up once it has summed four times the file:
+/// of headers that lie about their length each would have it sum up the rest.
+class ChunkSearch {
+ public:
+  explicit ChunkSearch(std::string_view file) : file_(file), left_(4 * std::uint64_t{file.size()}) {}
+  /// Offset of the next whole chunk at or after `from`.
+  std::optional<std::size_t> next(std::size_t from);
+  bool gave_up() const { return gave_up_; }
+
+ private:
+  std::string_view file_;
+  std::uint64_t left_;  ///< bytes that it may still sum
+  bool gave_up_ = false;
+};
 
 }  // namespace trocar

@@ -14,10 +14,12 @@
 namespace trocar {
 namespace {
 
+constexpr std::size_t kDamage = 160;  // bytes that a message of damage takes, nearly
+
 class Parser {
  public:
-  Parser(std::string_view file, const std::string& name, Reading reading)
-      : file_(file), name_(name), strict_(reading == Reading::kStrict) {}
+  Parser(std::string_view file, const std::string& name, Reading reading, std::uint64_t most)
+      : file_(file), name_(name), strict_(reading == Reading::kStrict), most_(most), search_(file) {}
 
   Recording parse() {
     check_prefix();
@@ -25,8 +27,9 @@ class Parser {
     while (offset < file_.size()) {
       if (const auto chunk = chunk_at(file_, offset)) {
         accept(*chunk);
+        if (held() > most_) refuse_more(offset);
         offset = chunk->end();
-      } else if (const auto next = find_chunk(file_, offset + 1)) {
+      } else if (const auto next = next_chunk(offset)) {
         report(offset, "does not agree with its CRC; " + std::to_string(*next - offset) + " bytes are lost");
         offset = *next;
       } else {
@@ -43,10 +46,33 @@ class Parser {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
+  void note(const std::string& damage) {
+    if (strict_) fail(damage);
+    recording_.damage.push_back(damage);
+  }
+
   void report(std::size_t offset, const std::string& what) {
-    const std::string message = "the chunk at byte " + std::to_string(offset) + " " + what;
-    if (strict_) fail(message);
-    recording_.damage.push_back(message);
+    note("the chunk at byte " + std::to_string(offset) + " " + what);
+  }
+
+  /// Bytes that what was read takes in memory, nearly.
+  std::uint64_t held() const {
+    const Recording& r = recording_;
+    return r.ticks.size() * sizeof(RecordedTick) + r.events.size() * sizeof(Event) +
+           r.schedule.patches.size() * sizeof(PatchSeen) + r.schedule.steps.size() * sizeof(std::uint64_t) +
+           r.tissue.bytes() + r.damage.size() * kDamage;
+  }
+
+  [[noreturn]] void refuse_more(std::size_t offset) const {
+    fail("holds more than a recording of its size can: from the chunk at byte " + std::to_string(offset) +
+         " on more than " + std::to_string(most_ >> 20) + " MiB");
+  }
+
+  /// Where reading goes on after a chunk that cannot be read. Strictly nowhere once it is certain that there is damage;
+  /// a chunk that the file is too short for may be where it was cut off.
+  std::optional<std::size_t> next_chunk(std::size_t damaged) {
+    if (strict_ && chunk_fits(file_, damaged)) return std::nullopt;
+    return search_.next(damaged + 1);
   }
 
   void check_prefix() {
@@ -170,10 +196,14 @@ class Parser {
     if (!key.empty() && signature_holds(key, link_text(link_), signature_)) recording_.signed_by = key;
   }
 
-  /// Nothing whole follows: either the file was cut off, or its last chunk is damaged.
+  /// Nothing whole follows, or nobody looked: either the file was cut off, or this chunk is damaged.
   void reject_tail(std::size_t offset) {
     const std::string bytes = std::to_string(file_.size() - offset) + " bytes";
     if (recording_.end && sealed()) return report(offset, "stands after the END (" + bytes + ")");
+    if (search_.gave_up())
+      return note("damaged from byte " + std::to_string(offset) + ": too much of the last " + bytes +
+                  " looks like chunks and is none");
+    if (strict_ && chunk_fits(file_, offset)) return report(offset, "does not agree with its CRC");
     if (chunk_fits(file_, offset)) return report(offset, "does not agree with its CRC; " + bytes + " are lost");
     recording_.torn = "cut off at byte " + std::to_string(offset) + ": the last " + bytes + " are not a whole chunk";
   }
@@ -186,10 +216,8 @@ class Parser {
     const RecordingEnd& end = *recording_.end;
     const auto compare = [&](const char* what, std::uint64_t said, std::size_t read) {
       if (said == read) return;
-      const std::string message = std::string("END speaks of ") + std::to_string(said) + " " + what + ", " +
-                                  std::to_string(read) + " were read";
-      if (strict_) fail(message);
-      recording_.damage.push_back(message);
+      note(std::string("END speaks of ") + std::to_string(said) + " " + what + ", " + std::to_string(read) +
+           " were read");
     };
     compare("ticks", end.tick_count, recording_.ticks.size());
     compare("events", end.event_count, recording_.events.size());
@@ -198,6 +226,8 @@ class Parser {
   std::string_view file_;
   const std::string& name_;
   bool strict_;
+  std::uint64_t most_;  ///< bytes in memory
+  ChunkSearch search_;
   std::vector<RecordedChannel> channels_;
   std::string link_;                          ///< hash of the last link
   std::string_view signature_;                ///< of the last link
@@ -206,6 +236,18 @@ class Parser {
 };
 
 }  // namespace
+
+std::uint64_t most_decoded(std::uint64_t file_bytes) {
+  // Rows of a hand that moves take 20 to 60 times what they take in the file; where nothing moves, half a second at
+  // 4 kHz (0.2 MB) costs 250 bytes or more.
+  constexpr std::uint64_t kTimesMoving = 64, kTimesResting = 2048, kAnyway = std::uint64_t{1} << 26;
+  // Rest: half an hour at 4 kHz, or two hours at 1 kHz (an exercise ends after 2 x 3600 s and a minute), have 0.8 GB.
+  constexpr std::uint64_t kMostResting = std::uint64_t{1} << 30;
+  // The longest attempt at 4 kHz has 3.3 GB of rows.
+  constexpr std::uint64_t kEver = std::uint64_t{1} << 32;
+  const std::uint64_t file = std::min(file_bytes, kEver / kTimesMoving);
+  return std::min({kEver, kAnyway + kTimesResting * file, kMostResting + kTimesMoving * file});
+}
 
 Recording read_recording(const std::filesystem::path& file, Reading reading) {
   std::error_code error;
@@ -218,8 +260,9 @@ Recording read_recording(const std::filesystem::path& file, Reading reading) {
   return parse_recording(bytes, file.string(), reading);
 }
 
-Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading) {
-  return Parser(bytes, name, reading).parse();
+Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading,
+                          std::optional<std::uint64_t> most) {
+  return Parser(bytes, name, reading, most.value_or(most_decoded(bytes.size()))).parse();
 }
 
 }  // namespace trocar

@@ -37,11 +37,15 @@ struct Recording {
 
 enum class Reading : std::uint8_t { kStrict, kTolerant };
 
-/// @throws InputError naming file and offset: no such file, not a recording, newer format, damaged header; in strict
-/// mode any damage.
+/// Bytes that a recording may take in memory when its file has so many.
+std::uint64_t most_decoded(std::uint64_t file_bytes);
+
+/// @throws InputError naming file and offset: no such file, not a recording, newer format, damaged header, more than
+/// most_decoded(); in strict mode any damage.
 Recording read_recording(const std::filesystem::path& file, Reading reading = Reading::kStrict);
 
-/// The same from bytes; `name` stands for the file in messages.
-Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading = Reading::kStrict);
+/// The same from bytes; `name` stands for the file in messages. @param most instead of most_decoded().
+Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading = Reading::kStrict,
+                          std::optional<std::uint64_t> most = std::nullopt);
 
 }  // namespace trocar

@@ -47,7 +47,7 @@ RecordingWriter::RecordingWriter(RecordingSink& sink, std::string_view session, 
 
 void RecordingWriter::begin(std::string_view session, double rate_hz) {
   const std::string header = encode_header({std::string(session), rate_hz, seal_.attempt});
-  rows_per_chunk_ = static_cast<std::size_t>(std::max(1.0, std::round(kChunk_s * rate_hz)));
+  rows_per_chunk_ = static_cast<std::size_t>(std::clamp(std::round(kChunk_s * rate_hz), 1.0, double{kMostChunkRows}));
   rows_.reserve(rows_per_chunk_);
   write(recording_prefix() + make_chunk(ChunkType::kHeader, header));
 }

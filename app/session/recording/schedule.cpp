@@ -10,7 +10,7 @@ namespace trocar {
 namespace {
 
 constexpr int kScheduleLevel = 3;
-constexpr std::uint32_t kMaxEntries = 1u << 20;
+constexpr std::uint32_t kMaxEntries = 1u << 16;  // of a chunk of half a second: ten minutes of tissue steps
 
 void put(std::string& out, std::uint64_t difference) {
   char digits[bytes::kMaxVarint];

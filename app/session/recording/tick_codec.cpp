@@ -15,7 +15,6 @@ namespace {
 using Kind = RecordedChannel::Kind;
 
 constexpr int kCompressionLevel = 3;
-constexpr std::uint32_t kMaxRows = 1u << 20;
 using bytes::kMaxVarint, bytes::put_varint, bytes::take_varint, bytes::zigzag, bytes::unzigzag;
 
 static_assert(std::is_standard_layout_v<RecordedTick> && std::is_trivially_copyable_v<RecordedTick>);
@@ -210,7 +209,7 @@ std::string TickEncoder::encode(std::span<const RecordedTick> rows, std::span<co
 std::vector<RecordedTick> decode_ticks(std::string_view payload, std::span<const RecordedChannel> channels) {
   bytes::Reader head(payload);
   const auto count = head.take<std::uint32_t>(), packed_size = head.take<std::uint32_t>();
-  if (count == 0 || count > kMaxRows) throw InputError("the number of rows is out of range");
+  if (count == 0 || count > kMostChunkRows) throw InputError("the number of rows is out of range");
   if (packed_size > channels.size() * (1 + kMaxVarint * (count + std::size_t{2}))) {
     throw InputError("the size of the rows is out of range");
   }

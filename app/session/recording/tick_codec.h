@@ -19,6 +19,10 @@
 
 namespace trocar {
 
+/// Rows of a chunk at most: chunks were a second once, and the fastest device runs at 10 kHz. Constant columns cost a
+/// few bytes for any number of rows.
+inline constexpr std::uint32_t kMostChunkRows = 1u << 14;
+
 /// One column of a row, as named in the recording's header.
 struct RecordedChannel {
   enum class Kind : std::uint8_t { kInt32, kUint32, kUint64, kUint8 };

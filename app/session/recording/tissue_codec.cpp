@@ -14,8 +14,11 @@ namespace trocar {
 namespace {
 
 constexpr int kKeyframeLevel = 3;
-constexpr std::size_t kMostUnpacked = std::size_t{1} << 28, kMostNodes = std::size_t{1} << 20;
-constexpr std::uint32_t kMostKeyframes = 1u << 16;
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 26, kMostNodes = std::size_t{1} << 20;
+// Keyframes of a chunk: one a tissue step at most, 50 in half a second; a loop that was held up has more of them to a
+// chunk. Ten shapes of 20 000 nodes, with four shares at as many vertices, take 6 MiB.
+constexpr std::uint32_t kMostKeyframes = 1u << 11;
+constexpr std::size_t kMostInChunk = std::size_t{1} << 26;
 constexpr std::uint8_t kNodeToNode = 4;
 using Quanta = std::vector<std::int32_t>;
 
@@ -40,17 +43,29 @@ void put_packed(std::string& out, std::string_view packed) {
   out.resize(head + size);
 }
 
-std::string take_packed(std::string_view compressed) {
+std::string take_packed(std::string_view compressed, std::size_t most) {
   bytes::Reader reader(compressed);
   const auto size = reader.take<std::uint32_t>();
   const std::string_view frame = reader.rest();
-  if (size > kMostUnpacked || ZSTD_getFrameContentSize(frame.data(), frame.size()) != size)
+  if (size > most || ZSTD_getFrameContentSize(frame.data(), frame.size()) != size)
     throw InputError("the compressed size of keyframes disagrees");
   std::string packed(size, '\0');
   const std::size_t got = ZSTD_decompress(packed.data(), packed.size(), frame.data(), frame.size());
   if (ZSTD_isError(got) || got != size) throw InputError("compressed keyframes are damaged");
   return packed;
 }
+
+/// What the keyframes of one chunk may still take in memory: what stays as it was costs a byte, whatever its size.
+class Room {
+ public:
+  void take(std::size_t bytes) {
+    if (bytes > left_) throw InputError("a chunk of keyframes holds more than any has");
+    left_ -= bytes;
+  }
+
+ private:
+  std::size_t left_ = kMostInChunk;
+};
 
 void put_words(std::string& out, const std::vector<std::uint64_t>& words, std::vector<std::uint64_t>& before) {
   put_number(out, words.size());
@@ -181,14 +196,17 @@ void put_fields(std::string& out, const std::vector<ShapeField>& fields, std::ve
   }
 }
 
-void take_fields(bytes::Reader& reader, std::vector<KeyframeMemory::Field>& memory, TissueKeyframe& keyframe) {
+void take_fields(bytes::Reader& reader, std::vector<KeyframeMemory::Field>& memory, TissueKeyframe& keyframe,
+                 Room& room) {
   memory.resize(take_count(reader, 256));
   for (KeyframeMemory::Field& field : memory) {
     field.name = std::string(reader.take_bytes(take_count(reader, 4096)));
     const auto place = reader.take<std::uint8_t>();
     if (place > static_cast<std::uint8_t>(FieldPlace::kVertices)) throw InputError("a field has an unknown place");
     field.place = static_cast<FieldPlace>(place);
-    field.value.resize(take_count(reader, kMostNodes), 0);
+    const std::size_t values = take_count(reader, kMostNodes);
+    room.take(sizeof(ShapeField) + field.name.size() + values * sizeof(float));
+    field.value.resize(values, 0);
     std::size_t next = 0;
     for (std::size_t changes = take_count(reader, field.value.size()); changes > 0; --changes) {
       next += take_count(reader, field.value.size());
@@ -196,6 +214,7 @@ void take_fields(bytes::Reader& reader, std::vector<KeyframeMemory::Field>& memo
       field.value[next++] = reader.take<std::uint8_t>();
     }
     ShapeField& out = keyframe.fields.emplace_back(ShapeField{field.name, field.place, {}});
+    out.value.reserve(values);
     for (const std::uint8_t value : field.value) out.value.push_back(static_cast<float>(value) / kFieldSteps);
   }
 }
@@ -289,6 +308,11 @@ std::vector<TopologyEvent> decode_changes(std::string_view payload) {
   return events;
 }
 
+const ReferenceShape* shape_numbered(std::span<const ReferenceShape> shapes, std::uint64_t number) {
+  const auto shape = std::ranges::lower_bound(shapes, number, {}, &ReferenceShape::number);
+  return shape != shapes.end() && shape->number == number ? &*shape : nullptr;
+}
+
 ReferenceShape decode_shape(std::string_view payload) {
   bytes::Reader head(payload);
   check_version(head);
@@ -296,7 +320,8 @@ ReferenceShape decode_shape(std::string_view payload) {
   shape.number = head.take<std::uint32_t>();
   shape.topology = head.take<std::uint64_t>();
   const auto nodes = head.take<std::uint32_t>();
-  const std::string places = take_packed(head.rest());
+  if (nodes > kMostNodes) throw InputError("a shape has more nodes than any has");
+  const std::string places = take_packed(head.rest(), std::size_t{nodes} * 12);
   if (places.size() != std::size_t{nodes} * 12) throw InputError("a shape does not have the nodes that it says");
   bytes::Reader reader(places);
   shape.nodes_T.resize(nodes);
@@ -330,7 +355,9 @@ KeyframesHead decode_keyframes_head(std::string_view payload) {
 std::vector<TissueKeyframe> decode_keyframes(const KeyframesHead& head, std::span<const ReferenceShape> shapes,
                                              KeyframeMemory& memory) {
   if (head.independent) memory = {};
-  const std::string packed = take_packed(head.packed);
+  Room room;
+  room.take(head.periods.size() * sizeof(TissueKeyframe));
+  const std::string packed = take_packed(head.packed, kMostUnpacked);
   bytes::Reader reader(packed);
   std::vector<TissueKeyframe> keyframes(head.periods.size());
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
@@ -339,14 +366,16 @@ std::vector<TissueKeyframe> decode_keyframes(const KeyframesHead& head, std::spa
     keyframe.shaped = head.shaped[i];
     take_words(reader, memory.words);
     read_words(memory.words, keyframe);
+    room.take(keyframe.status.message.size() + keyframe.status.hint.size());
     if (!keyframe.shaped) continue;
     const std::uint64_t number = bytes::take_varint(reader);
-    const auto shape = std::ranges::find(shapes, number, &ReferenceShape::number);
-    if (number == 0 || shape == shapes.end()) throw InputError("a keyframe is of a shape that is not there");
+    const ReferenceShape* shape = number == 0 ? nullptr : shape_numbered(shapes, number);
+    if (!shape) throw InputError("a keyframe is of a shape that is not there");
     if (memory.shape != shape->number) forget_nodes(memory, shape->number);
     keyframe.topology = shape->topology;
+    room.take(shape->nodes_T.size() * sizeof(NodePlace));
     keyframe.nodes_T = take_nodes(reader, *shape, memory);
-    take_fields(reader, memory.fields, keyframe);
+    take_fields(reader, memory.fields, keyframe, room);
   }
   if (!reader.rest().empty()) throw InputError("bytes are left over after the last keyframe");
   return keyframes;

@@ -77,7 +77,10 @@ struct KeyframesHead {
   std::string_view packed;  ///< u32 size, zstd; into the payload
 };
 
-/// @throws InputError saying what is wrong with the payload.
+/// nullptr: not there. @param shapes numbers increase.
+const ReferenceShape* shape_numbered(std::span<const ReferenceShape> shapes, std::uint64_t number);
+
+/// @throws InputError saying what is wrong with the payload, or that it holds more than any has.
 ReferenceShape decode_shape(std::string_view payload);
 KeyframesHead decode_keyframes_head(std::string_view payload);
 std::vector<TopologyEvent> decode_changes(std::string_view payload);

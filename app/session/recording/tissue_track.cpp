@@ -9,6 +9,7 @@ namespace trocar {
 void TissueTrack::add_shape(std::string_view payload) {
   ReferenceShape shape = decode_shape(payload);
   if (!shapes_.empty() && shape.number <= shapes_.back().number) throw InputError("repeats a shape that came before");
+  bytes_ += sizeof shape + shape.nodes_T.size() * sizeof(NodePlace);
   shapes_.push_back(std::move(shape));
 }
 
@@ -18,17 +19,18 @@ void TissueTrack::add_keyframes(std::string_view payload) {
     throw InputError("repeats keyframes that came before");
   if (!head.independent && head.number != last_number_ + 1) throw InputError("builds upon keyframes that are lost");
   for (const std::uint32_t shape : {head.first_shape, head.last_shape})
-    if (shape > 0 && std::ranges::find(shapes_, shape, &ReferenceShape::number) == shapes_.end())
-      throw InputError("builds upon a shape that is lost");
+    if (shape > 0 && !shape_numbered(shapes_, shape)) throw InputError("builds upon a shape that is lost");
   last_number_ = head.number;
   const auto chunk = static_cast<std::uint32_t>(chunks_.size());
   for (std::size_t i = 0; i < head.periods.size(); ++i)
     index_.push_back({head.periods[i], chunk, static_cast<std::uint32_t>(i), head.shaped[i]});
   chunks_.push_back({std::string(payload), head.independent});
+  bytes_ += head.periods.size() * sizeof(Entry) + sizeof(Stored) + payload.size();
 }
 
 void TissueTrack::add_changes(std::string_view payload) {
   std::vector<TopologyEvent> events = decode_changes(payload);
+  for (const TopologyEvent& event : events) bytes_ += sizeof event + event.bytes.size();
   changes_.insert(changes_.end(), std::make_move_iterator(events.begin()), std::make_move_iterator(events.end()));
 }
 
@@ -44,14 +46,6 @@ std::optional<std::size_t> TissueTrack::after(std::uint64_t period, bool shaped)
   for (; i < index_.size(); ++i)
     if (!shaped || index_[i].shaped) return i;
   return std::nullopt;
-}
-
-std::size_t TissueTrack::bytes() const {
-  std::size_t sum = index_.size() * sizeof(Entry);
-  for (const Stored& chunk : chunks_) sum += chunk.payload.size();
-  for (const ReferenceShape& shape : shapes_) sum += shape.nodes_T.size() * sizeof(NodePlace);
-  for (const TopologyEvent& event : changes_) sum += event.bytes.size();
-  return sum;
 }
 
 std::shared_ptr<const TissueKeyframe> TissueDecoder::at(std::size_t keyframe) {

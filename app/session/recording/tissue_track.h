@@ -33,7 +33,7 @@ class TissueTrack {
   /// The first keyframe behind a period.
   std::optional<std::size_t> after(std::uint64_t period, bool shaped = false) const;
   const std::vector<TopologyEvent>& changes() const { return changes_; }
-  std::size_t bytes() const;  ///< that it takes, nearly
+  std::size_t bytes() const { return bytes_; }  ///< that it takes, nearly
 
  private:
   friend class TissueDecoder;
@@ -52,6 +52,7 @@ class TissueTrack {
   std::vector<ReferenceShape> shapes_;
   std::vector<TopologyEvent> changes_;
   std::uint32_t last_number_ = 0;
+  std::size_t bytes_ = 0;
 };
 
 /// Decodes a chunk and those that it builds upon when it is asked for one of its keyframes, and keeps the newest few.

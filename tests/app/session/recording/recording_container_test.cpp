@@ -39,9 +39,11 @@ TEST(Chunk, IsReadWhereItStands) {
   EXPECT_FALSE(chunk_at(file, 3));
   EXPECT_FALSE(chunk_at(file, file.size()));
   EXPECT_FALSE(chunk_at(file, file.size() + 100));
-  EXPECT_EQ(find_chunk(file, 0), 4u);
-  EXPECT_EQ(find_chunk(file, 5), chunk->end());
-  EXPECT_FALSE(find_chunk(file, chunk->end() + 1));
+  ChunkSearch search(file);
+  EXPECT_EQ(search.next(0), 4u);
+  EXPECT_EQ(search.next(5), chunk->end());
+  EXPECT_FALSE(search.next(chunk->end() + 1));
+  EXPECT_FALSE(search.gave_up());
 }
 
 TEST(Chunk, EveryByteIsUnderTheCrc) {
