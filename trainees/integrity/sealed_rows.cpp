@@ -194,7 +194,10 @@ const std::vector<std::string>& sealed_tables() {
 }
 
 std::string next_row_uuid(sqlite3* connection, const std::string& table) {
-  return make_uuid_after(sql::query_text(connection, "SELECT coalesce(max(uuid), '') FROM " + table));
+  sql::Statement rows(connection, "SELECT uuid, id FROM " + table + " ORDER BY uuid DESC");
+  while (rows.step())  // a row that came in by another way counts nowhere, and takes no UUID away
+    if (row_holds(connection, table, rows.integer(1))) return make_uuid_after(rows.text(0));
+  return make_uuid_after("");
 }
 
 std::string newest_first(const std::string& table, const std::string& row, const std::string& of) {

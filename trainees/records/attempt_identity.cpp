@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <random>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -27,11 +28,19 @@ std::uint64_t steps_now() {
   return now / 1'000'000 * 4096 + now % 1'000'000 * 4096 / 1'000'000;
 }
 
+bool is_time_ordered(const std::string& uuid) {
+  static constexpr std::string_view kForm = "xxxxxxxx-xxxx-7xxx-vxxx-xxxxxxxxxxxx";
+  return std::equal(uuid.begin(), uuid.end(), kForm.begin(), kForm.end(), [](char is, char form) {
+    const std::string_view digits = form == 'v' ? "89ab" : "0123456789abcdef";
+    return form == 'x' || form == 'v' ? digits.find(is) != std::string_view::npos : is == form;
+  });
+}
+
 /// Of a UUID; 0 of another text.
 std::uint64_t steps_of(const std::string& uuid) {
   unsigned long long high = 0;
   unsigned low = 0, fraction = 0;
-  if (uuid.size() != 36 || std::sscanf(uuid.c_str(), "%8llx-%4x-7%3x-", &high, &low, &fraction) != 3) return 0;
+  if (!is_time_ordered(uuid) || std::sscanf(uuid.c_str(), "%8llx-%4x-7%3x-", &high, &low, &fraction) != 3) return 0;
   return ((std::uint64_t{high} << 16) + low) * 4096 + fraction;
 }
 
@@ -48,13 +57,30 @@ std::string uuid_at(std::uint64_t steps) {
   return text;
 }
 
+/// Greater than one of the last step that there is, by the 62 bits after it.
+std::string uuid_in_last_step(const std::string& before) {
+  constexpr std::uint64_t kLast = (std::uint64_t{1} << 62) - 1, kAtOnce = std::uint64_t{1} << 32;
+  unsigned high = 0, middle = 0, low = 0;
+  std::sscanf(before.c_str() + 19, "%4x-%4x%8x", &high, &middle, &low);
+  const std::uint64_t bits = (std::uint64_t{high & 0x3FFFu} << 48) + (std::uint64_t{middle} << 32) + low;
+  if (bits == kLast)
+    throw InputError("after " + before + " there is no UUID: whoever wrote that row left none; see trocar db check");
+  std::random_device random;
+  const std::uint64_t next = bits + 1 + random() % std::min(kLast - bits, kAtOnce);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.19s%04x-%04x%08x", before.c_str(), 0x8000u | static_cast<unsigned>(next >> 48),
+                static_cast<unsigned>(next >> 32 & 0xFFFFu), static_cast<unsigned>(next & 0xFFFFFFFFu));
+  return text;
+}
+
 }  // namespace
 
 std::string make_uuid() { return uuid_at(steps_now()); }
 
 std::string make_uuid_after(const std::string& before) {
   constexpr std::uint64_t kLast = (std::uint64_t{1} << 60) - 1;
-  return uuid_at(std::max(steps_now(), std::min(steps_of(before) + 1, kLast)));
+  const std::uint64_t steps = steps_of(before);
+  return steps < kLast ? uuid_at(std::max(steps_now(), steps + 1)) : uuid_in_last_step(before);
 }
 
 std::string utc_now() {

@@ -12,7 +12,7 @@ namespace trocar {
 std::string make_uuid();
 
 /// The same, and greater than `before` whatever the clock says: one step beyond it where the clock was set back (RFC
-/// 9562, section 6.2). A `before` that is no such UUID does not count.
+/// 9562, section 6.2). A `before` that is no such UUID does not count. @throws InputError: it is the last there is.
 std::string make_uuid_after(const std::string& before);
 
 /// "2026-03-01T09:30:00.123Z"

@@ -75,9 +75,10 @@ int central_admit(const CentralOptions& options, std::ostream& out) {
 }
 
 int central_dismiss(const CentralOptions& options, std::ostream& out) {
-  dismiss_login(address_of(options), options.login);
+  const std::vector<std::string> left = dismiss_login(address_of(options), options.login);
   out << "login " << options.login << " is out; what it wrote stays\n";
-  return 0;
+  for (const std::string& line : left) out << line << '\n';
+  return left.empty() ? 0 : 1;
 }
 
 void add_central_access(CLI::App& command, std::filesystem::path& password_file, bool& weak_tls) {

@@ -240,8 +240,8 @@ std::vector<std::string> insert_central(CentralLink& link, const CarriedTable& t
   const auto added =
       link.run("INSERT INTO " + quoted(table.name) + " (" + listed(table, name_only) + ", \"station\") SELECT " +
                    listed(table, name_only) + ", $2 FROM json_to_recordset($1::json) AS r(" + listed(table, with_type) +
-                   ") WHERE " + (has_digest(table) ? may_bring(table.name) : "true") +
-                   " ON CONFLICT DO NOTHING RETURNING " + quoted(table.columns.front().central),
+                   ") WHERE " + is_sound(table.name) + " AND (" + (has_digest(table) ? may_bring(table.name) : "true") +
+                   ")" + " ON CONFLICT DO NOTHING RETURNING " + quoted(table.columns.front().central),
                {json_rows(table, rows), station});
   std::vector<std::string> keys;
   for (const Values& row : added) keys.push_back(row.front().value_or(""));

@@ -11,11 +11,25 @@ namespace trocar::sync {
 namespace {
 
 constexpr const char* kLock = "SELECT pg_advisory_xact_lock(1414677330)";  // "TRCR"
+// Whoever may connect can hold that lock: nobody waits for it for ever. A shorter or longer time that the server's
+// administrator has set for the login stands.
+constexpr const char* kPatience =
+    "SELECT set_config('lock_timeout', '30s', true) WHERE current_setting('lock_timeout') = '0'; ";
+constexpr const char* kHolders =
+    "SELECT coalesce(string_agg(DISTINCT 'login ' || coalesce(s.usename::text, '?') || ' (process ' || l.pid || ')',"
+    " ', '), 'nobody any more') FROM pg_locks l LEFT JOIN pg_stat_activity s ON s.pid = l.pid WHERE l.granted AND"
+    " l.locktype = 'advisory' AND l.classid = 0 AND l.objid = 1414677330 AND l.database = (SELECT oid FROM pg_database"
+    " WHERE datname = current_database())";
 // Doubles come back as they went; "exists already" is no news; compiling a short statement takes longer than running
 // it.
 constexpr const char* kSettings =
     "SET LOCAL extra_float_digits = 3; SET LOCAL client_min_messages = warning; SET LOCAL search_path TO trocar; "
     "SET LOCAL jit = off; ";
+
+/// Somebody else has had a lock for too long.
+struct LockHeld : EnvironmentError {
+  using EnvironmentError::EnvironmentError;
+};
 
 /// libpq's own words end in line ends.
 std::string one_line(std::string text) {
@@ -40,6 +54,8 @@ auto told(const char* doing, const Action& action) {
     throw EnvironmentError("central database: no permission (is this login let in? trocar sync admit): " +
                            one_line(error.what()));
   } catch (const pqxx::sql_error& error) {
+    if (error.sqlstate() == "55P03")
+      throw LockHeld(std::string("central database: ") + doing + ": " + one_line(error.what()));
     const std::string state = error.sqlstate().substr(0, 2);
     const std::string message = std::string("central database: ") + doing + ": " + one_line(error.what());
     if (state == "22" || state == "23" || state == "42") throw InputError(message);
@@ -72,8 +88,19 @@ CentralLink::~CentralLink() = default;
 
 void CentralLink::begin() {
   // A station that vanishes must not hold up the others.
-  open(std::string("SET LOCAL idle_in_transaction_session_timeout = '60s'; ") + kSettings + kLock);
+  try {
+    open(std::string("SET LOCAL idle_in_transaction_session_timeout = '60s'; ") + kSettings + kPatience + kLock);
+  } catch (const LockHeld&) {
+    begin_reading();
+    const std::string holders = run(kHolders).front().front().value_or("");
+    commit();
+    throw EnvironmentError("central database: somebody holds the lock that writers take, for too long now: " + holders +
+                           "; nothing is lost, the same command goes on when it is free (its owner ends a login's"
+                           " sessions with trocar sync dismiss LOGIN)");
+  }
 }
+
+void CentralLink::begin_out_of_turn() { open(std::string(kSettings) + kPatience + "SELECT 1"); }
 
 void CentralLink::begin_reading() {
   open(std::string("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY; ") + kSettings + "SELECT 1");

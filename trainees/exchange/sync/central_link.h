@@ -33,7 +33,10 @@ class CentralLink {
   /// Whether this login owns the schema: then nothing there is beyond it.
   bool is_owner() const { return owner_; }
 
+  /// Waits for its turn. @throws EnvironmentError: somebody holds the lock for more than 30 s; says who.
   void begin();
+  /// Writes without waiting for anybody: for what brings no rows.
+  void begin_out_of_turn();
   /// Sees one state from beginning to end and holds up nobody.
   void begin_reading();
   void commit();

@@ -2,6 +2,9 @@
 
 #include <sodium.h>
 
+#include <chrono>
+#include <thread>
+
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/central_address.h"
 #include "trainees/exchange/sync/central_link.h"
@@ -58,6 +61,48 @@ std::string make_role(CentralLink& link, const CentralAddress& central, const st
       {name, encrypted_password(central, name, password)});
   link.run(statement.front().front().value_or(""));
   return password;
+}
+
+/// A statement that names a role takes no parameters: the server quotes the name. @param pattern for format().
+void run_for_role(CentralLink& link, const std::string& pattern, const std::string& role) {
+  link.run(link.run("SELECT format($1, $2::text)", {pattern, role}).front().front().value_or(""));
+}
+
+/// The same, without effect where this owner may not.
+void try_for_role(CentralLink& link, const std::string& block, const std::string& role) {
+  link.run(link.run("SELECT format('DO %L', format($1, $2::text))",
+                    {"BEGIN " + block + " EXCEPTION WHEN insufficient_privilege THEN NULL; END", role})
+               .front()
+               .front()
+               .value_or(""));
+}
+
+constexpr const char* kEndSessions =
+    "PERFORM pg_terminate_backend(pid) FROM pg_stat_activity WHERE usename = %1$L AND pid <> pg_backend_pid();";
+
+/// Ends what is open of a login. Who made a role may end its sessions only as a member of it. @returns how many go on.
+int end_sessions(CentralLink& link, const std::string& login) {
+  link.begin_out_of_turn();
+  try_for_role(link,
+               std::string("BEGIN ") + kEndSessions +
+                   " EXCEPTION WHEN insufficient_privilege THEN GRANT %1$I TO SESSION_USER; " + kEndSessions +
+                   " REVOKE %1$I FROM SESSION_USER; END;",
+               login);
+  link.commit();
+  int open = 0;
+  for (int i = 0; i < 20; ++i) {  // each ends when it comes to it
+    link.begin_reading();
+    open = std::stoi(link.run("SELECT count(*)::text FROM pg_stat_activity WHERE usename = $1 AND pid <>"
+                              " pg_backend_pid()",
+                              {login})
+                         .front()
+                         .front()
+                         .value_or("0"));
+    link.commit();
+    if (open == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return open;
 }
 
 void give_station(CentralLink& link, const std::string& station, const std::string& login) {
@@ -123,6 +168,8 @@ bool admit_login(const CentralAddress& central, const Admission& admission) {
     password = make_role(link, central, name);
   } else if (const std::string mighty = too_mighty(link, name); !mighty.empty()) {
     throw InputError("login " + name + " " + mighty + ": a station's or a desk's may nothing but what it is granted");
+  } else if (link.run("SELECT 1 FROM pg_roles WHERE rolname = $1 AND rolcanlogin", {name}).empty()) {
+    run_for_role(link, "ALTER ROLE %I LOGIN", name);  // one that was dismissed
   }
   link.run("INSERT INTO login (name, kind) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET kind = $2",
            {name, admission.kind});
@@ -134,14 +181,24 @@ bool admit_login(const CentralAddress& central, const Admission& admission) {
   return !password.empty();
 }
 
-void dismiss_login(const CentralAddress& central, const std::string& login) {
+std::vector<std::string> dismiss_login(const CentralAddress& central, const std::string& login) {
   CentralLink link(central);
-  link.begin();
+  link.begin_out_of_turn();  // that very login may hold the lock
   require_owner(link);
   if (link.run("DELETE FROM login WHERE name = $1 RETURNING 1", {login}).empty())
     throw InputError("login " + login + ": is not let in");
   for (const std::string& statement : revoke_statements(login)) link.run(statement);
+  try_for_role(link, "ALTER ROLE %I NOLOGIN;", login);  // else it may connect still, and hold the lock
+  std::vector<std::string> told;
+  if (!link.run("SELECT 1 FROM pg_roles WHERE rolname = $1 AND rolcanlogin", {login}).empty())
+    told.push_back("login " + login +
+                   ": may still connect to the server, and so hold up whoever writes; this owner may not change that:"
+                   " whoever administers the server does ALTER ROLE ... NOLOGIN");
   link.commit();
+  if (const int open = end_sessions(link, login); open > 0)
+    told.push_back("login " + login + ": " + std::to_string(open) +
+                   " of its connections are open; whoever administers the server ends them");
+  return told;
 }
 
 }  // namespace trocar

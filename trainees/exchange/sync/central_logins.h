@@ -39,11 +39,14 @@ struct Admission {
 };
 
 /// Lets a login in, as the owner. A role that is not there is made, with a password of 32 random characters that only
-/// the file gets to know; one that is there keeps its password and is only granted what it needs.
+/// the file gets to know; one that is there keeps its password and is only granted what it needs, and may connect
+/// again if it was dismissed.
 /// @returns whether a role was made. @throws InputError: no such station, a role that may more than a station should.
 bool admit_login(const CentralAddress& central, const Admission& admission);
 
-/// Takes from a login what it was granted; what it wrote stays. @throws InputError: it is not let in.
-void dismiss_login(const CentralAddress& central, const std::string& login);
+/// Takes from a login what it was granted, and that it may connect to the server at all, and ends its connections; what
+/// it wrote stays. admit_login() takes that back. @returns what this owner may not do of it, a line each.
+/// @throws InputError: it is not let in.
+std::vector<std::string> dismiss_login(const CentralAddress& central, const std::string& login);
 
 }  // namespace trocar

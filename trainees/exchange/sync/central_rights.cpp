@@ -33,6 +33,13 @@ constexpr const char* kAdded[] = {
     "CREATE VIEW own_certificate AS SELECT uuid FROM certificate WHERE trainee_uuid IN (SELECT uuid FROM own_person)",
 };
 
+/// Who brought an entry of the trail the server says, as in the column login: what a station says of groups counts for
+/// its own people (take_memberships). What stood before version 5 stays, but for what stations' logins had brought.
+constexpr const char* kOfDesk[] = {"ALTER TABLE audit ADD COLUMN of_desk boolean NOT NULL DEFAULT true",
+                                   "ALTER TABLE audit ALTER COLUMN of_desk SET DEFAULT may_all()",
+                                   "UPDATE audit SET of_desk = false WHERE action IN ('group joined', 'group left') AND"
+                                   " login IN (SELECT name FROM login WHERE kind = 'station')"};
+
 struct Function {
   const char *head, *body;
 };
@@ -138,6 +145,8 @@ std::string quoted_columns(const CarriedTable& table) {
 
 std::string both(const std::string& one, const std::string& other) { return one + " AND (" + other + ")"; }
 
+constexpr const char* kIsUuid = "uuid ~ '^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$'";
+
 // Versions go on from what is there: one far beyond would leave no number to anybody's next one.
 constexpr const char* kNextVersion =
     "version <= 1000 + coalesce((SELECT max(c.version) FROM trocar.curriculum c WHERE c.name = curriculum.name), 0)";
@@ -145,12 +154,10 @@ constexpr const char* kNextVersion =
 std::vector<Policy> policies() {
   const std::string all = "(SELECT trocar.may_all())", own = kOwnStation;
   std::vector<Policy> out;
-  // A row that no program writes would stop every desk that reads it.
-  const std::string is_uuid = "uuid ~ '^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$'";
   for (const CarriedTable& table : carried_bases())
-    out.push_back({table.name, quoted_columns(table), table.name == "trainee" ? both(own, is_uuid) : own});
+    out.push_back({table.name, quoted_columns(table), both(own, is_sound(table.name))});
   out.push_back({carried_attempt().name, quoted_columns(carried_attempt()),
-                 both(both(own, is_uuid), all + " OR trainee_uuid IN (SELECT t.uuid FROM trocar.own_trainee t)")});
+                 both(both(own, kIsUuid), all + " OR trainee_uuid IN (SELECT t.uuid FROM trocar.own_trainee t)")});
   for (const CarriedTable& table : carried_of_attempt()) {
     // They come with their attempt: nothing is added to one that is there.
     out.push_back({table.name, quoted_columns(table),
@@ -158,8 +165,10 @@ std::vector<Policy> policies() {
                                  table.name + "\".station AND a.xmin = pg_current_xact_id()::xid)")});
   }
   for (const CarriedTable& table : carried_sealed()) {
-    out.push_back({table.name, quoted_columns(table),
-                   both(own, table.name == "curriculum" ? kNextVersion : may_bring(table.name)), sees(table.name)});
+    out.push_back(
+        {table.name, quoted_columns(table),
+         both(both(own, is_sound(table.name)), table.name == "curriculum" ? kNextVersion : may_bring(table.name)),
+         sees(table.name)});
   }
   out.push_back({"person", "", "false", all + " OR " + own});
   out.push_back({"audit", "station, position, utc, actor, action, subject, detail, prev_hash, row_hash", own});
@@ -214,6 +223,30 @@ constexpr const char* kCallable[] = {"is_owner()", "may_all()", "announce(text, 
 
 }  // namespace
 
+// The greatest UUID of its kind is the latest word, and whoever writes next goes beyond it: one of a time far ahead
+// would be the last word for as long, and beyond the last of all there is nothing.
+std::string latest_time() {
+  return "lpad(to_hex((extract(epoch FROM clock_timestamp() + interval '1 year') * 1000)::bigint), 12, '0')";
+}
+
+std::string names_row() {
+  return "uuid ~ '^[0-9a-f]{8}-[0-9a-f]{4}-7[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}$' AND"
+         " replace(left(uuid, 13), '-', '') COLLATE \"C\" <= " +
+         latest_time();
+}
+
+std::string is_sound(const std::string& table) {
+  // A row that no program writes would be left out by everybody who fetches, and what honest rows say of it with it.
+  if (table == "exercise") return "number IS NOT NULL AND title IS NOT NULL AND id !~ '[\\x01-\\x1f\\x7f]'";
+  if (table == "ruleset")
+    return "version IS NOT NULL AND sha256 = encode(sha256(convert_to(toml, 'UTF8')), 'hex') AND"
+           " EXISTS (SELECT 1 FROM trocar.exercise e WHERE e.id = exercise_id)";
+  if (table == "trainee") return std::string("created_utc IS NOT NULL AND ") + kIsUuid;
+  const auto& sealed = carried_sealed();
+  const bool has_name = std::any_of(sealed.begin(), sealed.end(), [&](const auto& one) { return one.name == table; });
+  return has_name ? names_row() : "true";
+}
+
 std::string may_bring(const std::string& table) {
   static const std::string kOfAttempt = "EXISTS (SELECT 1 FROM trocar.own_attempt o WHERE o.uuid = attempt_uuid)",
                            kOfCertificate =
@@ -241,6 +274,7 @@ std::vector<std::string> rights_statements() {
       "CREATE TRIGGER chained AFTER INSERT ON audit REFERENCING NEW TABLE AS fresh FOR EACH STATEMENT EXECUTE FUNCTION"
       " chained()");
   add_recorded_once(out);
+  for (const char* statement : kOfDesk) out.emplace_back(statement);
   out.emplace_back("REVOKE EXECUTE ON ALL FUNCTIONS IN SCHEMA trocar FROM PUBLIC");
   for (const Policy& policy : policies()) {
     for (std::string& statement : policy_statements(policy)) out.push_back(std::move(statement));
@@ -260,6 +294,13 @@ std::vector<std::string> rights_since_3() {
       out.push_back("ALTER POLICY sees ON " + policy.table + " USING (" + policy.sees + ")");
     }
   }
+  return out;
+}
+
+std::vector<std::string> rights_since_4() {
+  std::vector<std::string> out(std::begin(kOfDesk), std::end(kOfDesk));
+  for (const Policy& policy : policies())
+    out.push_back("ALTER POLICY brings ON " + policy.table + " WITH CHECK (" + policy.check + ")");
   return out;
 }
 

@@ -117,8 +117,9 @@ std::vector<std::string> central_statements(int from) {
   }
   if (from < 3) {
     add(rights_statements());
-  } else if (from < 4) {
-    add(rights_since_3());
+  } else {
+    if (from < 4) add(rights_since_3());
+    add(rights_since_4());
   }
   statements.push_back("UPDATE central SET version = " + std::to_string(kCentralVersion));
   return statements;

@@ -15,6 +15,9 @@ PushReport push_over(CentralLink& link, Database& database, const PushOptions& o
 /// @param whole compares everything; else only what arrived since the last time is asked for.
 PullReport replicate_over(CentralLink& link, Database& database, const ReplicaOptions& options, bool whole);
 
+/// @throws InputError: the file is a copy of another centre, or a station's own.
+void require_place_of_copy(const Database& database, const std::string& central_uuid);
+
 /// Name of the row in sync_cursor that says up to which arrival this copy has that centre, and when it last looked.
 std::string arrivals_of(const std::string& central_uuid);
 

@@ -1,8 +1,10 @@
 #include "trainees/exchange/sync/fetch.h"
 
 #include <algorithm>
+#include <regex>
 
 #include "haptics/input_error.h"
+#include "trainees/exchange/sync/central_rights.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
@@ -56,8 +58,20 @@ bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row
   return true;
 }
 
-void insert_sealed(sqlite3* connection, const CarriedTable& table, const Values& row, const Links& links) {
+/// Its UUID puts a row in its place among all of its kind (next_row_uuid): one that is none, or of a time far ahead,
+/// would be the last word. @param latest of latest_time(): that of the centre, for the clock here may be wrong.
+void require_name_of_row(const std::string& uuid, const std::string& latest) {
+  static const std::regex kName("([0-9a-f]{8})-([0-9a-f]{4})-7[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
+  std::smatch parts;
+  if (!std::regex_match(uuid, parts, kName)) throw InputError("its UUID is none of trocar's; left out");
+  if (parts[1].str() + parts[2].str() > latest)
+    throw InputError("its UUID is of a time more than a year ahead of the centre's clock; left out");
+}
+
+void insert_sealed(sqlite3* connection, const CarriedTable& table, const Values& row, const Links& links,
+                   const std::string& latest) {
   const std::string uuid = row.front().value_or("");
+  require_name_of_row(uuid, latest);
   Values placed = row;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     if (table.columns[i].central != "trainee_uuid" || !row[i]) continue;
@@ -122,7 +136,11 @@ bool take_one(sqlite3* connection, const std::string& name, std::vector<std::str
     return true;
   } catch (const InputError& error) {
     sql::execute(connection, "ROLLBACK TO one; RELEASE one");
-    problems.push_back(name + ": " + error.what());
+    std::string line = name + ": " + error.what();
+    for (char& c : line) {
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';  // it is printed on a terminal
+    }
+    problems.push_back(std::move(line));
     return false;
   }
 }
@@ -130,7 +148,9 @@ bool take_one(sqlite3* connection, const std::string& name, std::vector<std::str
 void take_sealed(CentralLink& link, Database& database, const CarriedTable& table, const Wanted& wanted,
                  const Links& links, PullReport& report) {
   sqlite3* connection = database.connection();
+  std::string latest;
   fetch_missing(link, connection, table, wanted, [&](const std::vector<Values>& rows) {
+    if (latest.empty()) latest = link.run("SELECT " + latest_time()).front().front().value_or("");
     AnchoredTransaction transaction(database);
     int taken = 0;
     for (const Values& row : rows) {
@@ -138,7 +158,7 @@ void take_sealed(CentralLink& link, Database& database, const CarriedTable& tabl
       // Somebody else's write may have been first: between the question and here.
       if (is_here(connection, table.name.c_str(), uuid) || !has_place(connection, table, row, links)) continue;
       taken += take_one(connection, table.name + " " + uuid, report.problems,
-                        [&] { insert_sealed(connection, table, row, links); });
+                        [&] { insert_sealed(connection, table, row, links, latest); });
     }
     if (taken == 0) return;
     transaction.commit();

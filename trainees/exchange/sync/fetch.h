@@ -28,12 +28,13 @@ std::vector<std::string> missing_here(CentralLink& link, sqlite3* connection, co
 void fetch_missing(CentralLink& link, sqlite3* connection, const CarriedTable& table, const Wanted& wanted,
                    const std::function<void(const std::vector<Values>& rows)>& take);
 
-/// Runs the action; undone and told under that name when it throws InputError. Inside a transaction. @returns whether
-/// it stands.
+/// Runs the action; undone and told under that name when it throws InputError: whoever may write at the centre can
+/// bring a row that no program writes, and it stops nobody. Inside a transaction. @returns whether it stands.
 bool take_one(sqlite3* connection, const std::string& name, std::vector<std::string>& problems,
               const std::function<void()>& action);
 
 /// Rows of a sealed table that are missing here, each with its hash computed again and an entry in the audit trail.
+/// One whose UUID is none, or of a time far ahead, stays out and is told: it would order everybody's.
 /// What hangs on an attempt, certificate or trainee that is not here stays out, and so does a second revocation of one
 /// certificate.
 void take_sealed(CentralLink& link, Database& database, const CarriedTable& table, const Wanted& wanted,

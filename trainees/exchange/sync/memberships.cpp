@@ -23,12 +23,16 @@ std::set<Membership> unpushed(sqlite3* connection, std::int64_t cursor, const Li
   return all;
 }
 
-/// A person is in a group when one of the trainees that they are is.
+/// A person is in a group when one of the trainees that they are is. What a station's login brought counts for that
+/// login's own people and for those who were linked to them; a desk's for everybody.
 std::map<Membership, bool> at_the_centre(CentralLink& link, sqlite3* connection, const Links& links) {
   std::map<Membership, bool> all;
-  for (const Values& row :
-       link.run("SELECT DISTINCT ON (subject, detail) subject, detail, action FROM audit a WHERE action IN"
-                " ('group joined', 'group left') ORDER BY subject, detail, a.seq DESC")) {
+  for (const Values& row : link.run(
+           "WITH own AS (SELECT t.uuid, s.login FROM trainee t JOIN station s ON s.uuid = t.station),"
+           " whose AS (SELECT uuid, login FROM own UNION SELECT l.same_uuid, o.login FROM own o JOIN linked_trainee l"
+           " ON l.trainee_uuid = o.uuid) SELECT DISTINCT ON (subject, detail) subject, detail, action FROM audit a"
+           " JOIN station b ON b.uuid = a.station WHERE action IN ('group joined', 'group left') AND (a.of_desk OR"
+           " (a.subject, b.login) IN (SELECT uuid, login FROM whose)) ORDER BY subject, detail, a.seq DESC")) {
     bool& member = all[{links.home(connection, *row[0]), *row[1]}];
     member = member || *row[2] == "group joined";
   }
@@ -39,6 +43,25 @@ std::map<Membership, bool> at_the_centre(CentralLink& link, sqlite3* connection,
 std::int64_t named_trainee(sqlite3* connection, const std::string& uuid) {
   sql::Statement row(connection, "SELECT t.id FROM trainee t JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
   return row.bind(uuid).step() ? row.integer(0) : 0;
+}
+
+void change(sqlite3* connection, std::int64_t trainee, const Membership& membership, bool joined) {
+  sql::Statement row(connection, joined ? "INSERT INTO membership VALUES (?, ?)"
+                                        : "DELETE FROM membership WHERE trainee_id = ? AND group_name = ?");
+  row.bind(trainee).bind(membership.second).run();
+  append_audit(connection, joined ? "group joined elsewhere" : "group left elsewhere", membership.first,
+               membership.second, kFromCentre);
+}
+
+/// @returns whether it was news here.
+bool meet(sqlite3* connection, const std::string& note, const std::string& utc) {
+  sql::Statement insert(connection,
+                        "INSERT INTO note_seen SELECT id, ?2 FROM note n WHERE uuid = ?1 AND NOT EXISTS"
+                        " (SELECT 1 FROM note_seen WHERE note_id = n.id) RETURNING 1");
+  if (!insert.bind(note).bind(utc).step()) return false;
+  insert.run();
+  keep_note_seen(connection, note, utc, kFromCentre);
+  return true;
 }
 
 }  // namespace
@@ -56,12 +79,9 @@ void take_memberships(CentralLink& link, Database& database, const Links& links,
     sql::Statement known(connection, "SELECT 1 FROM membership WHERE trainee_id = ? AND group_name = ?");
     if (known.bind(trainee).bind(membership.second).step() == member) continue;
     known.run();
-    sql::Statement change(connection, member ? "INSERT INTO membership VALUES (?, ?)"
-                                             : "DELETE FROM membership WHERE trainee_id = ? AND group_name = ?");
-    change.bind(trainee).bind(membership.second).run();
-    append_audit(connection, member ? "group joined elsewhere" : "group left elsewhere", membership.first,
-                 membership.second, kFromCentre);
-    ++changed;
+    changed +=
+        take_one(connection, "membership of trainee " + membership.first + " in \"" + membership.second + "\"",
+                 report.problems, [&, joined = member, &of = membership] { change(connection, trainee, of, joined); });
   }
   if (changed == 0) return;
   transaction.commit();
@@ -75,13 +95,10 @@ void take_seen(CentralLink& link, Database& database, std::int64_t since, PullRe
   AnchoredTransaction transaction(database);
   int taken = 0;
   for (const Values& row : rows) {
-    sql::Statement insert(database.connection(),
-                          "INSERT INTO note_seen SELECT id, ?2 FROM note n WHERE uuid = ?1 AND NOT EXISTS"
-                          " (SELECT 1 FROM note_seen WHERE note_id = n.id) RETURNING 1");
-    if (!insert.bind(*row[0]).bind(*row[1]).step()) continue;
-    insert.run();
-    keep_note_seen(database.connection(), *row[0], *row[1], kFromCentre);
-    ++taken;
+    bool news = false;
+    if (take_one(database.connection(), "that note " + *row[0] + " was met", report.problems,
+                 [&] { news = meet(database.connection(), *row[0], *row[1]); }))
+      taken += news;
   }
   transaction.commit();
   if (taken > 0) report.added["note_seen"] += taken;

@@ -4,6 +4,7 @@
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/batch.h"
 #include "trainees/exchange/sync/central_address.h"
+#include "trainees/exchange/sync/central_rights.h"
 #include "trainees/exchange/sync/exchange.h"
 #include "trainees/exchange/sync/station.h"
 #include "trainees/exchange/sync/synchronise.h"
@@ -91,20 +92,28 @@ class Push {
 
   void tell_conflicts() {
     link_->begin();
-    for (const Values& row :
-         link_->run("SELECT kind, uuid, hash, kept FROM conflict WHERE station = $1 ORDER BY kind, uuid, hash",
-                    {station_.uuid})) {
-      report_->conflicts.push_back(
-          *row[0] + " " + *row[1] +
-          (row[3]->empty()
-               ? ": is about somebody of another station, or about a group; this login may not bring it, a desk may"
-               : ": the central database has it with another hash (" + row[3]->substr(0, 12) + ", here " +
-                     row[2]->substr(0, 12) + "); nothing was overwritten"));
+    for (const Values& row : link_->run("SELECT kind, uuid, hash, kept, " + names_row() +
+                                            " FROM conflict WHERE station = $1 ORDER BY kind, uuid, hash",
+                                        {station_.uuid})) {
+      report_->conflicts.push_back(*row[0] + " " + *row[1] + why_not(*row[2], *row[3], row[4] == "t"));
     }
     link_->commit();
   }
 
  private:
+  /// @param kept the hash that is there, "" where the row may not come. @param named as names_row() says.
+  static std::string why_not(const std::string& hash, const std::string& kept, bool named) {
+    if (!kept.empty()) {
+      return ": the central database has it with another hash (" + kept.substr(0, 12) + ", here " + hash.substr(0, 12) +
+             "); nothing was overwritten";
+    }
+    if (!named) {
+      return ": its UUID is none of trocar's, or of a time more than a year ahead of the central database's clock: it"
+             " is not taken there. See whether the clock here is right";
+    }
+    return ": is about somebody of another station, or about a group; this login may not bring it, a desk may";
+  }
+
   /// What came just now of people who were erased goes again.
   void keep_erased() {
     if (link_->run("SELECT 1 FROM erasure LIMIT 1").empty()) return;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/exchange.h"
 #include "trainees/exchange/sync/fetch.h"
@@ -28,19 +29,6 @@ class Replica {
   Replica(CentralLink& link, Database& database, std::int64_t since, PullReport& report)
       : link_(&link), database_(&database), connection_(database.connection()), since_(since), report_(&report) {}
 
-  void require_own_place() const {
-    const std::string of = replica_of(connection_);
-    if (!of.empty() && of != link_->uuid()) {
-      throw InputError(database_->file().string() +
-                       ": is a copy of another central database; give this one a file of its own (--db FILE)");
-    }
-    if (sql::query_integer(
-            connection_, "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0)
-      return;
-    throw InputError(database_->file().string() +
-                     ": holds attempts of its own; what all stations have goes to a file of its own (--db FILE)");
-  }
-
   void take_stations() {
     AnchoredTransaction transaction(*database_);
     mark_replica(connection_, link_->uuid());
@@ -57,13 +45,14 @@ class Replica {
     for (const CarriedTable& table : carried_bases()) {
       fetch_missing(*link_, connection_, table, {since_}, [&](const std::vector<Values>& rows) {
         AnchoredTransaction transaction(*database_);
+        int taken = 0;
         for (const Values& row : rows) {
-          insert_local(connection_, table, row);
-          if (table.name == "trainee") keep_trainee(connection_, row.front().value_or(""), kFromCentre);
-          if (table.name == "exercise") keep_exercise(connection_, row.front().value_or(""));
+          taken += take_one(connection_, table.name + " " + row.front().value_or(""), report_->problems,
+                            [&] { take_base(table, row); });
         }
+        if (taken == 0) return;
         transaction.commit();
-        report_->added[table.name] += static_cast<int>(rows.size());
+        report_->added[table.name] += taken;
       });
     }
   }
@@ -82,8 +71,12 @@ class Replica {
           " FROM trainee t LEFT JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
       if (!here.bind(uuid).step() || here.integer(1) != 0) continue;
       if (!row[1] && here.integer(2) != 0) continue;
-      take_person(uuid, here.integer(0), free_code(row[1].value_or("unnamed-" + tail), here.integer(0), tail), *row[2],
-                  *row[3]);
+      const std::int64_t trainee = here.integer(0);
+      here.run();
+      take_one(connection_, "person of trainee " + uuid, report_->problems, [&] {
+        take_person(uuid, trainee, free_code(row[1].value_or("unnamed-" + tail), trainee, uuid, tail), *row[2],
+                    *row[3]);
+      });
     }
     transaction.commit();
   }
@@ -127,10 +120,26 @@ class Replica {
  private:
   using Rows = std::map<std::string, std::vector<Values>>;
 
-  /// Two stations may have given one code to two people.
-  std::string free_code(const std::string& code, std::int64_t trainee, const std::string& tail) const {
+  void take_base(const CarriedTable& table, const Values& row) {
+    const std::string key = row.front().value_or("");
+    if (table.name == "ruleset" && digest::of_bytes(row.back().value_or("")) != key)
+      throw InputError("its content is not that of its hash; left out");
+    insert_local(connection_, table, row);
+    if (table.name == "trainee") keep_trainee(connection_, key, kFromCentre);
+    if (table.name == "exercise") keep_exercise(connection_, key);
+  }
+
+  /// Two stations may have given one code to two people; and one may have chosen UUIDs whose ends are the same.
+  std::string free_code(const std::string& code, std::int64_t trainee, const std::string& uuid,
+                        std::string tail) const {
     sql::Statement taken(connection_, "SELECT 1 FROM person WHERE code = ? AND trainee_id <> ?");
-    return taken.bind(code).bind(trainee).step() ? code.substr(0, 23) + "-" + tail : code;
+    std::string free = code;
+    for (int tries = 0; taken.bind(free).bind(trainee).step(); ++tries) {
+      taken.run();
+      free = code.substr(0, 23) + "-" + tail;
+      tail = digest::of_bytes(uuid + " " + std::to_string(tries)).substr(0, 8);
+    }
+    return free;
   }
 
   void take_person(const std::string& uuid, std::int64_t trainee, const std::string& code, const std::string& name,
@@ -219,6 +228,19 @@ class Replica {
 
 namespace sync {
 
+void require_place_of_copy(const Database& database, const std::string& central) {
+  const std::string of = replica_of(database.connection());
+  if (!of.empty() && of != central) {
+    throw InputError(database.file().string() +
+                     ": is a copy of another central database; give this one a file of its own (--db FILE)");
+  }
+  if (sql::query_integer(database.connection(),
+                         "SELECT EXISTS (SELECT 1 FROM attempt WHERE id NOT IN (SELECT attempt_id FROM replica))") == 0)
+    return;
+  throw InputError(database.file().string() +
+                   ": holds attempts of its own; what all stations have goes to a file of its own (--db FILE)");
+}
+
 std::string arrivals_of(const std::string& central_uuid) { return "arrivals of " + central_uuid; }
 
 PullReport replicate_over(CentralLink& link, Database& database, const ReplicaOptions& options, bool whole) {
@@ -232,7 +254,7 @@ PullReport replicate_over(CentralLink& link, Database& database, const ReplicaOp
   }
   const std::int64_t since = whole || known == 0 || there < known ? -1 : known;
   Replica replica(link, database, since, report);
-  replica.require_own_place();
+  require_place_of_copy(database, link.uuid());
   replica.take_stations();
   replica.take_bases();
   take_erasures(link, database, true, report);  // before what they are about

@@ -171,6 +171,7 @@ void ReplicaKeeper::State::round() {
   try {
     if (again) link = std::make_unique<CentralLink>(options.central);
     central = link->uuid();
+    if (again) require_place_of_copy(database, central);
     const std::int64_t before = revision;
     exchange(again || Clock::now() - compared > options.compare_all);
     asked = Clock::now();
@@ -205,10 +206,13 @@ ReplicaKeeper::ReplicaKeeper(KeeperOptions options) : state_(std::make_unique<St
   state.central = before.central;
   state.status.host = central_name(state.options.central);
   state.status.as_of_utc = before.utc;
+  bool ours = false;
   try {
     state.link = std::make_unique<CentralLink>(state.options.central);
     state.central = state.link->uuid();
     // Nothing is pushed before the file is known to be a copy of that centre: it may be a station's own.
+    require_place_of_copy(state.database, state.central);
+    ours = true;
     replicate_over(*state.link, state.database, {state.options.central, false, state.options.going},
                    before.central != state.central);
     state.exchange(true);
@@ -217,6 +221,9 @@ ReplicaKeeper::ReplicaKeeper(KeeperOptions options) : state_(std::make_unique<St
     state.found(true);
   } catch (const EnvironmentError& error) {
     if (before.utc.empty()) throw;
+    state.lost(error.what());
+  } catch (const InputError& error) {  // something there that this program cannot take: what it has is still good
+    if (before.utc.empty() || !ours) throw;
     state.lost(error.what());
   }
 }

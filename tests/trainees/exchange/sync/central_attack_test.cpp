@@ -8,7 +8,9 @@
 #include "trainees/exchange/sync/central_address.h"
 #include "trainees/exchange/sync/central_logins.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
@@ -54,9 +56,9 @@ class CentralAttack : public Stations {
   }
   /// What the server says to a statement of the south; "" when it does it.
   std::string attack(const std::string& sql) const {
-    pqxx::connection connection(sync::connection_text(south_));
-    pqxx::nontransaction transaction(connection);
     try {
+      pqxx::connection connection(sync::connection_text(south_));
+      pqxx::nontransaction transaction(connection);
       transaction.exec("SET search_path TO trocar");
       for (const auto& row : transaction.exec(sql)) last_ = row.empty() || row[0].is_null() ? "" : row[0].c_str();
     } catch (const pqxx::failure& error) {
@@ -343,7 +345,173 @@ TEST_F(CentralAttack, ARecordThatWasNeverPushedHasNoWitness) {
   EXPECT_NE(told[0].find("has no head of this record"), std::string::npos) << told[0];
 }
 
+TEST_F(CentralAttack, RowsThatNoProgramWritesDoNotComeIn) {
+  const Lines before = all();
+  const std::string curriculum =
+      "INSERT INTO curriculum (name, version, sha256, toml, author, utc, digest, station, uuid) VALUES ('course', 1, "
+      "'',"
+      " '', '', '', '', 'OWN', ";
+  for (const std::string& sql : std::initializer_list<std::string>{
+           "INSERT INTO ruleset (sha256, exercise_id, version, toml, station) VALUES ('x', 'surface-touch', '1', '',"
+           " 'OWN')",
+           "INSERT INTO ruleset (sha256, exercise_id, version, toml, station) VALUES (encode(sha256('x'), 'hex'),"
+           " 'nothing', '1', 'x', 'OWN')",
+           "INSERT INTO ruleset (sha256, exercise_id, toml, station) VALUES (encode(sha256('x'), 'hex'),"
+           " 'surface-touch', 'x', 'OWN')",
+           "INSERT INTO exercise (id, number, station) VALUES ('x', '1', 'OWN')",
+           "INSERT INTO exercise (id, number, title, station) VALUES (E'x\ty', '1', 'x', 'OWN')",
+           "INSERT INTO trainee (uuid, station) VALUES ('01890000-0000-7000-8000-000000000000', 'OWN')",
+           curriculum + "'ffffffff-ffff-7fff-bfff-ffffffffffff')",
+           curriculum + "'0fffffff-ffff-7fff-8000-000000000000')",
+           curriculum + "'01890000-0000-4000-8000-000000000000')", curriculum + "'zz')"}) {
+    EXPECT_NE(attack(filled(sql)), "") << filled(sql);
+  }
+  EXPECT_EQ(all(), before);
+  EXPECT_EQ(attack(filled(curriculum + "'01890000-0000-7000-8000-000000000000')")), "") << "all else about it is right";
+}
+
+/// What was there before the centre refused it, and what it cannot know.
+TEST_F(CentralAttack, RowsThatNobodyCanTakeStopNobody) {
+  ask(
+      filled("INSERT INTO ruleset (sha256, exercise_id, version, toml, station) VALUES ('x', 'nothing', '1', '',"
+             " 'OWN')"));
+  ask(filled("INSERT INTO exercise (id, number, title, station) VALUES (E'two\nlines', '', '', 'OWN')"));
+  ask(filled("INSERT INTO trainee (uuid, station) VALUES ('01890000-0000-7000-8000-000000000000', 'OWN')"));
+  for (const char* one : {"1", "2", "3"}) {
+    const std::string uuid = std::string("'0189000") + one + "-0000-7000-8000-000000000009'";
+    ask(filled("INSERT INTO trainee (uuid, created_utc, station) VALUES (" + uuid + ", '', 'OWN')"));
+    ask(filled("INSERT INTO person (trainee_uuid, code, name, email, station) VALUES (" + uuid +
+               ", 't-NORTH', '', '', 'OWN')"));
+  }
+  const std::string note = one("SELECT uuid FROM note WHERE station = '" + other_ + "'");
+  ask(filled("INSERT INTO note_seen (note_uuid, utc, station) VALUES ('" + note + "', E'2026\n', 'OWN')"));
+  const std::string own = one("SELECT DISTINCT trainee_uuid FROM attempt WHERE station = '" + own_ + "'"),
+                    group(65, 'g');
+  EXPECT_EQ(attack(one_more_entry("group joined", own, group)), "");
+  Database copy = station("copy"), north = station("north");
+  const PullReport pulled = replicate_central(copy, admitted(central_, "desk_" + database_name(), "desk"));
+  const Lines named{"exercise two?lines: ", "ruleset x: ", "trainee 01890000-0000-7000-8000-000000000000: ",
+                    "membership of trainee " + own + " in \"" + group + "\": ", "that note " + note + " was met: "};
+  ASSERT_EQ(pulled.problems.size(), named.size());
+  for (std::size_t i = 0; i < named.size(); ++i)
+    EXPECT_TRUE(pulled.problems[i].starts_with(named[i])) << pulled.problems[i];
+  EXPECT_EQ(AttemptStore(copy).list().size(), 4u);
+  EXPECT_EQ(sql::query_integer(copy.connection(), "SELECT count(*) FROM person WHERE code LIKE 'T-north%'"), 4);
+  EXPECT_EQ(problems_of(copy), "");
+  EXPECT_EQ(pull_from_central(north, north_, false).problems.size(), 1u) << "its note's";
+  EXPECT_EQ(problems_of(north), "");
+}
+
+TEST_F(CentralAttack, AUuidOfTheEndOfAllTimesIsNobodysLastWord) {
+  ask(
+      filled("INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc, digest, station) VALUES"
+             " ('ffffffff-ffff-7fff-bfff-ffffffffffff', 'course', 1, repeat('0', 64), 'x', '', '', '', 'OWN')"));
+  Database north = station("north");
+  const PullReport pulled = pull_from_central(north, north_, false);
+  ASSERT_EQ(pulled.problems.size(), 1u);
+  EXPECT_TRUE(pulled.problems[0].starts_with(
+      "curriculum ffffffff-ffff-7fff-bfff-ffffffffffff: its UUID is of a time more than a year ahead"))
+      << pulled.problems[0];
+  EXPECT_LT(CurriculumStore(north).add("course", "a = 1\n", kTeacher).uuid, "1");
+  EXPECT_EQ(come(north, north_).conflicts, Lines{});
+  // Its own clock runs ahead by centuries: what was written under it stays at home, is named, and the rest goes on.
+  sql::execute(north.connection(),
+               "INSERT INTO curriculum (uuid, name, version, sha256, toml, author, utc) SELECT"
+               " '0fffffff-0000-7000-8000-000000000001', name, 2, sha256, toml, author, utc FROM curriculum");
+  seal_row(north.connection(), "curriculum", "0fffffff-0000-7000-8000-000000000001", "");
+  const std::string ahead = CurriculumStore(north).add("course", "a = 2\n", kTeacher).uuid;
+  EXPECT_GT(ahead, "0fffffff");
+  practise(north, "T-north", 1);
+  const PushReport pushed = come(north, north_);
+  EXPECT_EQ(pushed.added.at("attempt"), 1);
+  ASSERT_EQ(pushed.conflicts.size(), 2u) << "that which was put in as if by an older program, and the one after it";
+  EXPECT_TRUE(pushed.conflicts[1].starts_with("curriculum " + ahead + ": its UUID is none of trocar's, or of a time"))
+      << pushed.conflicts[1];
+}
+
+TEST(UuidsOfRows, EndWhereThereAreNoMore) {
+  for (const char* before : {"ffffffff-ffff-7fff-8000-000000000001", "ffffffff-ffff-7fff-bfff-fffffffffffe"}) {
+    const std::string next = make_uuid_after(before);
+    EXPECT_GT(next, before);
+    EXPECT_LE(next, "ffffffff-ffff-7fff-bfff-ffffffffffff");
+    EXPECT_EQ(next.size(), 36u);
+  }
+  EXPECT_NE(message_of<InputError>([] { make_uuid_after("ffffffff-ffff-7fff-bfff-ffffffffffff"); }), "");
+  for (const char* none : {"ffffffff-ffff-7fff-bfff-fffffffffff", "ffffffff-ffff-7fff-ffff-ffffffffffff",
+                           " fffffff-ffff-7fff-bfff-ffffffffffff", "FFFFFFFF-FFFF-7FFF-BFFF-FFFFFFFFFFFF"})
+    EXPECT_LT(make_uuid_after(none), "1") << none;
+}
+
+TEST_F(CentralAttack, AStationPutsNobodyElsesPeopleIntoGroups) {
+  const CentralAddress desk = admitted(central_, "desk_" + database_name(), "desk");
+  const std::string own = one("SELECT DISTINCT trainee_uuid FROM attempt WHERE station = '" + own_ + "'");
+  Database copy = station("copy"), north = station("north");
+  replicate_central(copy, desk);
+  CurriculumStore(copy).join("T-north", "friday", kTeacher);
+  push_to_central(copy, PushOptions{desk});
+  EXPECT_EQ(attack(one_more_entry("group joined", trainee_, "monday")), "");
+  EXPECT_EQ(attack(one_more_entry("group left", trainee_, "friday")), "");
+  EXPECT_EQ(attack(one_more_entry("group joined", own, "tuesday")), "");
+  EXPECT_NE(attack(filled("INSERT INTO audit (station, of_desk) VALUES ('OWN', true)")), "");
+  replicate_central(copy, desk);
+  EXPECT_EQ(CurriculumStore(copy).groups_of("T-north"), Lines{"friday"});
+  EXPECT_EQ(CurriculumStore(copy).groups_of("T-south"), Lines{"tuesday"});
+  dismiss_login(server_.owner_of(central_), "desk_" + database_name());
+  pull_from_central(north, north_, false);
+  EXPECT_EQ(CurriculumStore(north).groups_of("T-north"), Lines{"friday"}) << "what the desk's login said stays";
+  link_people(server_.owner_of(central_), "T-north@north", "T-south@south", true, "me");
+  pull_from_central(north, north_, false);
+  EXPECT_EQ(CurriculumStore(north).groups_of("T-north"), (Lines{"monday", "tuesday"})) << "one person now";
+}
+
 class CentralLogins : public CentralAttack {};
+
+TEST_F(CentralLogins, ThatHoldUpEverybodyAreNamedAndShutOut) {
+  const std::string south = "south_" + database_name();
+  ask("ALTER ROLE north_" + database_name() + " SET lock_timeout = '200ms'");  // instead of half a minute
+  pqxx::connection held(sync::connection_text(south_));
+  pqxx::nontransaction holds(held);
+  holds.exec("SELECT pg_advisory_lock(1414677330)");
+  Database north = station("north"), its = station("south");
+  practise(north, "T-north", 1);
+  const std::string told = message_of<EnvironmentError>([&] { come(north, north_); });
+  EXPECT_NE(told.find("somebody holds the lock that writers take, for too long now: login " + south + " (process "),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(dismiss_login(server_.owner_of(central_), south), Lines{});
+  EXPECT_EQ(come(north, north_).added.at("attempt"), 1);
+  EXPECT_NE(attack("SELECT 1").find("not permitted to log in"), std::string::npos);
+  EXPECT_FALSE(admit_login(server_.owner_of(central_), {south, "station"})) << "its password is what it was";
+  practise(its, "T-south", 1);
+  EXPECT_EQ(come(its, south_).added.at("attempt"), 1);
+}
+
+/// As the documents set one up: an owner that may make roles and nothing more.
+TEST_F(CentralLogins, AreShutOutByAnOwnerWhoIsNoSuperuser) {
+  const std::string boss = "boss_" + database_name(), mine = "mine_" + database_name();
+  ask("CREATE ROLE " + boss + " LOGIN CREATEROLE PASSWORD 'boss'");
+  const CentralAddress central = server_.make_database("of_" + boss);
+  server_.ask(central, "ALTER DATABASE of_" + boss + " OWNER TO " + boss);
+  const auto password = folder_ / "boss.password";
+  std::ofstream(password) << "boss\n";
+  std::filesystem::permissions(password, std::filesystem::perms::owner_read);
+  const CentralAddress owner = server_.as(central, boss, password);
+  set_up_central(owner);
+  const auto file = folder_ / "mine.password";
+  EXPECT_TRUE(admit_login(owner, {mine, "station", "", file}));
+  const CentralAddress login = server_.as(central, mine, file);
+  pqxx::connection open(sync::connection_text(login));
+  EXPECT_EQ(dismiss_login(owner, mine), Lines{});
+  EXPECT_THROW(pqxx::nontransaction(open).exec("SELECT 1"), pqxx::failure);
+  EXPECT_EQ(server_.ask(central, "SELECT count(*) FROM pg_auth_members WHERE roleid = '" + mine +
+                                     "'::regrole AND"
+                                     " (member <> '" +
+                                     boss + "'::regrole OR grantor = member)"),
+            Lines{"0"});
+  EXPECT_FALSE(admit_login(owner, {mine, "station"}));
+  Database database = station("mine");
+  EXPECT_EQ(come(database, login).conflicts, Lines{});
+}
 
 TEST_F(CentralLogins, AreMadeByTheOwnerAloneAndNeverMightyOnes) {
   const CentralAddress owner = server_.owner_of(central_);

@@ -129,6 +129,26 @@ TEST_F(Keeper, DoesNotTakeAStationsOwnDatabaseForACopy) {
   EXPECT_EQ(everything(), before) << "and pushes nothing of it under the desk's name";
 }
 
+TEST_F(Keeper, BeginsFromWhatItHasWhenItCannotTakeWhatIsThere) {
+  { const auto kept = keeper(); }
+  ask("ALTER TABLE note_seen RENAME TO gone");  // any refusal of the centre
+  const auto kept = keeper();
+  Database copy = station("desk");
+  EXPECT_NE(kept->status().as_of_utc, "");
+  EXPECT_NE(kept->status().why.find("note_seen"), std::string::npos) << kept->status().why;
+  EXPECT_EQ(AttemptStore(copy).list().size(), 2u);
+  ask("ALTER TABLE gone RENAME TO note_seen");
+  until([&] { return kept->status().lost_since_utc.empty(); });
+}
+
+TEST_F(Keeper, DoesNotTakeTheCopyOfAnotherCentre) {
+  { const auto kept = keeper(); }
+  central_ = another_central();
+  const auto before = everything();
+  EXPECT_NE(message_of<InputError>([&] { keeper(); }).find("is a copy of another central database"), std::string::npos);
+  EXPECT_EQ(everything(), before);
+}
+
 TEST_F(Keeper, TwoDesksThatWriteAtOnceEndWithTheSame) {
   const auto first = keeper("desk"), second = keeper("second");
   Database one_desk = station("desk"), other_desk = station("second");
