@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include "haptics/input_error.h"
+#include "haptics/toml_keys.h"
 
 namespace trocar {
 
@@ -79,6 +80,7 @@ StrictTable::StrictTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 StrictTable StrictTable::parse(const std::string& text, const std::string& file) {
   auto node = std::make_shared<Node>();
   node->file = file;
+  require_short_keys(text, file);
   try {
     node->document = std::make_shared<const toml::table>(toml::parse(text, file));
   } catch (const toml::parse_error& error) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "haptics/toml_keys.h"
 
 namespace trocar {
 
@@ -61,6 +62,7 @@ TomlTable::TomlTable(std::shared_ptr<const Document> document, const void* table
     : document_(std::move(document)), table_(table), file_(std::move(file)) {}
 
 TomlTable TomlTable::parse(const std::string& text, const std::string& file) {
+  require_short_keys(text, file);
   try {
     const auto document = std::make_shared<const Document>(Document{toml::parse(text, file)});
     return {document, &document->root, file};

@@ -4,10 +4,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
+#include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/records/attempt_identity.h"
 
@@ -77,7 +80,10 @@ std::string read_anchor(const fs::path& database) {
 }
 
 void write_anchor(const fs::path& database, const std::string& text) {
-  if (!text.empty()) open_owner_file(anchor_path(database)) << text;
+  if (text.empty()) return;
+  std::ofstream out = open_owner_file(anchor_path(database));
+  out << text << std::flush;
+  if (!out) throw EnvironmentError(anchor_path(database).string() + ": cannot be written: " + std::strerror(errno));
 }
 
 std::vector<std::string> check_anchor(const fs::path& database, sqlite3* connection) {

@@ -6,10 +6,13 @@
 namespace trocar {
 
 std::string csv_text(std::string_view text) {
-  constexpr std::string_view kDefused = "=+-@\t\r\n'";
+  constexpr std::string_view kDefused = "=+-@\t\r\n'", kFormula = "=+-@'";
   std::string out;
   if (!text.empty() && kDefused.find(text.front()) != std::string_view::npos) out = "'";
-  out += text;
+  for (const char c : text) {  // where commas are decimal points, spreadsheets divide at semicolons, within quotes too
+    if (out.ends_with(';') && kFormula.find(c) != std::string_view::npos) out += '\'';
+    out += c;
+  }
   if (out.find_first_of(",\"\r\n") == std::string::npos) return out;
   std::string quoted = "\"";
   for (const char c : out) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -1,8 +1,9 @@
 // Fields of a CSV file: RFC 4180, UTF-8, lines end in CR LF, numbers to the bit.
 //
 // Text that a spreadsheet would run as a formula is defused: a field of a text column that begins with = + - @, tab, CR
-// or LF gets an apostrophe in front, and so does one that begins with an apostrophe, so that taking one leading
-// apostrophe away gives the text back. Pure. Thread: any.
+// or LF gets an apostrophe in front, and so does one that begins with an apostrophe; likewise = + - @ and apostrophe
+// after a semicolon, where spreadsheets of other countries begin a cell. Taking one apostrophe away in front and after
+// each semicolon gives the text back. Pure. Thread: any.
 #pragma once
 
 #include <string>

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "haptics/input_error.h"
+#include "haptics/toml_keys.h"
 #include "trainees/progress/calendar.h"
 
 namespace trocar {
@@ -20,6 +21,7 @@ InputError step_error(const std::string& name, const toml::source_region& where,
 }
 
 toml::table parsed_programme(const std::string& text, const std::string& name) {
+  require_short_keys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "haptics/input_error.h"
+#include "haptics/toml_keys.h"
 
 namespace trocar {
 namespace {
@@ -99,6 +100,7 @@ class Section {
 };
 
 toml::table parsed(const std::string& text, const std::string& name) {
+  require_short_keys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -14,6 +14,7 @@ namespace trocar {
 
 struct ProgressRules {
   std::string version = "1";
+  std::string unread = {};     ///< why newer ones that are kept do not rule, "" where none are
   int passes_to_unlock = 3;    ///< in a row, on as many boards
   int stuck_after = 5;         ///< attempts since the last pass, none of them passed
   int unsafe_window = 5;       ///< newest graded attempts looked at

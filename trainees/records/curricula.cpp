@@ -120,13 +120,16 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
   return next;
 }
 
-std::optional<Curriculum> CurriculumStore::newest(const std::string& name) const {
+std::optional<Curriculum> CurriculumStore::newest(const std::string& name,
+                                                  const std::function<bool(const Curriculum&)>& fits) const {
   // Two stations may have written the same version, neither knowing of the other: then one holds, the same everywhere.
   sql::Statement row(database_->connection(),
                      std::string(kCurricula) + " WHERE name = ? ORDER BY version DESC, uuid DESC");
   row.bind(name);
-  while (row.step())  // a row that came in by another way rules nothing, and hides none that does
-    if (row_holds(database_->connection(), "curriculum", row.integer(7))) return curriculum_of(row);
+  while (row.step()) {  // a row that came in by another way rules nothing, and hides none that does
+    if (!row_holds(database_->connection(), "curriculum", row.integer(7))) continue;
+    if (Curriculum one = curriculum_of(row); !fits || fits(one)) return one;
+  }
   return std::nullopt;
 }
 

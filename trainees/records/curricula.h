@@ -5,6 +5,7 @@
 // and a date.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,9 @@ class CurriculumStore {
   /// The next version of that name. The same text again adds nothing. @throws InputError: name not 1 to 64 characters,
   /// empty text.
   Curriculum add(const std::string& name, const std::string& toml, const Author& author);
-  std::optional<Curriculum> newest(const std::string& name) const;
+  /// @param fits leaves out versions that are not, all without.
+  std::optional<Curriculum> newest(const std::string& name,
+                                   const std::function<bool(const Curriculum&)>& fits = {}) const;
   std::vector<Curriculum> list() const;  ///< every version, newest first
 
   Benchmark add_benchmark(const Benchmark& numbers, const Author& author);  ///< uuid, author and utc are set here

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "trainees/files/csv_rows.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
@@ -76,6 +77,17 @@ ImportRow row_of(const CsvRow& row, const std::map<ImportColumn, std::size_t>& c
   return out;
 }
 
+/// As much of a refused row as tells which it is: its fields may be a file long.
+void shorten(ImportRow& row) {
+  constexpr std::size_t kShown = 80;
+  for (std::string* field : {&row.code, &row.name, &row.email, &row.group}) {
+    if (field->size() <= kShown) continue;
+    std::size_t end = 0;
+    for (std::size_t one = 0; (one = utf8_length(*field, end)) > 0 && end + one <= kShown;) end += one;
+    *field = field->substr(0, end) + "...";
+  }
+}
+
 /// What is wrong with what stands in the row, whoever it is.
 void check_row(const ImportRow& row) {
   if (row.code.empty()) throw InputError("has no code");
@@ -100,6 +112,7 @@ class PeopleLook {
     } catch (const InputError& error) {
       row.fate = RowFate::kRefused;
       row.reason = error.what();
+      shorten(row);
       return;
     }
     lines_.emplace(key, row.line);
@@ -122,6 +135,7 @@ class PeopleLook {
 };
 
 ImportPreview looked_at(sqlite3* connection, std::string_view csv, const std::string& name, const std::string& group) {
+  if (!group.empty()) check_printed("group", group, kLongestGroup);  // once: each row would repeat it
   const CsvRows read = read_csv(csv, name);
   if (read.rows.empty()) throw InputError(name + ": is empty");
   ImportPreview out;

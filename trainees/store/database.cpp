@@ -242,12 +242,22 @@ std::vector<std::string> Database::check() const {
 }
 
 void Database::backup(const fs::path& to) const {
-  if (fs::exists(key_path(to))) throw InputError(key_path(to).string() + ": exists already; a backup never overwrites");
+  for (const fs::path& beside : {anchor_path(to), key_path(to)})
+    if (fs::exists(fs::symlink_status(beside)))
+      throw InputError(beside.string() + ": exists already; a backup never overwrites");
   make_folder(fs::absolute(to));
   const auto anchor = read_anchor(file_);  // before the copy: what it holds is in the copy for certain
   copy_database(connection_.get(), to);
-  write_anchor(to, anchor);
-  if (const auto key = station_key(file_)) write_station_key(to, *key);  // what is put back goes on being signed
+  try {
+    write_anchor(to, anchor);
+    if (const auto key = station_key(file_)) write_station_key(to, *key);  // what is put back goes on being signed
+  } catch (const std::exception&) {
+    for (const fs::path& begun : {to, anchor_path(to), key_path(to)}) {
+      std::error_code ignored;
+      fs::remove(begun, ignored);
+    }
+    throw;
+  }
 }
 
 }  // namespace trocar

@@ -31,6 +31,12 @@ std::string cell_flags(const CohortRow& row, const std::vector<CohortLine>& line
 
 }  // namespace
 
+ProgressRules rules_told(Database& database, std::ostream& err) {
+  ProgressRules rules = rules_in_force(database);
+  if (!rules.unread.empty()) err << "trocar: " << rules.unread << "; the rules before them are in force\n";
+  return rules;
+}
+
 int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream& err) {
   using Align = TextTable::Align;
   Database database = open_database(options.database, OpenMode::kExisting, err);
@@ -38,7 +44,7 @@ int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream
   CohortFilter filter;
   filter.trainee = options.trainee;
   filter.deactivated = options.deactivated;
-  const std::vector<CohortLine> lines = cohort_lines(database, rules_in_force(database), filter, utc_now());
+  const std::vector<CohortLine> lines = cohort_lines(database, rules_told(database, err), filter, utc_now());
   if (options.json) {
     out << cohort_json(rows, lines);
     return 0;

@@ -5,6 +5,9 @@
 #include <iosfwd>
 #include <string>
 
+#include "trainees/progress/rules.h"
+#include "trainees/store/database.h"
+
 namespace trocar {
 
 struct CohortOptions {
@@ -13,6 +16,9 @@ struct CohortOptions {
   bool json = false;
   bool deactivated = false;  ///< those too
 };
+
+/// Those in force; tells on `err` why newer ones are not.
+ProgressRules rules_told(Database& database, std::ostream& err);
 
 /// @return exit code 0
 int cohort_command(const CohortOptions& options, std::ostream& out, std::ostream& err);

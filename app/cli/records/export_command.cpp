@@ -24,6 +24,7 @@
 #include "trainees/exchange/export/table_export.h"
 #include "trainees/exchange/export/trace_tables.h"
 #include "trainees/exchange/export/xapi_export.h"
+#include "trainees/integrity/attempt_chain.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/cohort.h"
@@ -141,6 +142,18 @@ void add_export_filter(CLI::App& command, ExportFilter& filter) {
   command.add_option("--attempt", filter.attempt, "One attempt only: its number, a part of its UUID, or 'latest'");
 }
 
+/// Rows that were changed are exported as they are, which is said.
+void tell_changed(Database& database, const ExportChoice& choice, std::ostream& err) {
+  int changed = 0;
+  for (const std::int64_t row : choice.attempts) {
+    if (attempt_vouched(database.connection(), row)) continue;
+    if (++changed == 1) err << "trocar: attempt " << AttemptStore(database).load(row).uuid;
+  }
+  if (changed > 1) err << " and " << changed - 1 << " more of " << choice.attempts.size();
+  if (changed > 0)
+    err << ": not as when finished, or the entry is not signed; exported as the database has it, see trocar db check\n";
+}
+
 int export_command(const ExportOptions& options, std::ostream& out, std::ostream& err) {
   check_options(options);
   const bool folder = options.format != "json" && options.format != "xapi";
@@ -152,6 +165,7 @@ int export_command(const ExportOptions& options, std::ostream& out, std::ostream
   if (options.format == "csv") write_csv_files(database, choice, pending);
   if (options.format == "json") write_json(database, choice, pending.file());
   if (options.format == "xapi") write_statements(options, database, choice, pending.file());
+  if (options.format != "xapi") tell_changed(database, choice, err);
   if (options.format == "traces") attempts = static_cast<std::size_t>(write_traces(database, choice, pending, err));
   pending.commit();
   if (const int erased = people_erased(database); erased > 0) err << erased << " erased and left out\n";

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/records/cohort_command.h"
 #include "app/cli/records/open_database.h"
 #include "app/cli/records/store_json.h"
 #include "app/cli/text_table.h"
@@ -132,7 +133,7 @@ int trainee_show(const TraineeOptions& options, std::ostream& out, std::ostream&
   const auto attempts = AttemptStore(database).list({trainee->code, "", options.limit});
   CohortFilter filter;
   filter.trainee = trainee->code;
-  const auto lines = cohort_lines(database, rules_in_force(database), filter, utc_now());
+  const auto lines = cohort_lines(database, rules_told(database, err), filter, utc_now());
   if (options.json) {
     out << trainee_json(*trainee, attempts, lines);
     return 0;

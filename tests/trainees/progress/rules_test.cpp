@@ -21,6 +21,12 @@ std::string complaint(const std::string& toml) {
   return message_of<InputError>([&] { read_progress_rules(toml, "mine.toml"); });
 }
 
+TEST(ProgressRules, AKeyOfVeryManyPartsIsRefusedWithItsPlace) {
+  std::string key = "a";
+  for (int i = 0; i < 40000; ++i) key += ".a";
+  EXPECT_NE(complaint(key + " = 1").find("mine.toml:1:64: a key of more than 32 parts"), std::string::npos);
+}
+
 TEST(ProgressRules, ShippedFileSaysWhatTheProgramDoesByItself) {
   const ProgressRules read = read_progress_rules(shipped(), "progress.toml"), own;
   EXPECT_EQ(read.version, own.version);

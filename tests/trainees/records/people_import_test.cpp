@@ -102,6 +102,15 @@ TEST_F(PeopleImport, AnotherDeskMayHaveBeenFaster) {
   EXPECT_EQ(TraineeStore(database_).find("B-2")->name, "Bea");
 }
 
+TEST_F(PeopleImport, LongFieldsAndGroupsComeBackShort) {
+  const std::string longest(100000, 'g');
+  EXPECT_THROW(preview("code\nA-1\n", longest), InputError);
+  const ImportPreview seen = preview("code,group\nA-1," + longest + "\n");
+  ASSERT_EQ(seen.rows.size(), 1U);
+  EXPECT_EQ(seen.rows[0].fate, RowFate::kRefused);
+  EXPECT_EQ(seen.rows[0].group, std::string(80, 'g') + "...");
+}
+
 TEST_F(PeopleImport, FilesThatAreNoListAreRefusedWithTheirPlace) {
   for (const auto& [csv, said] : {std::pair<std::string, std::string>{"", "list.csv: is empty"},
                                   {"name\nAda\n", "list.csv:1:1: the first line names the columns"},

@@ -88,6 +88,13 @@ TEST_F(RecordBackup, OverwritesNothingAndLeavesNoPartBehind) {
   begin();
   EXPECT_NE(message_of<InputError>(begin).find("exists already"), std::string::npos);
   EXPECT_EQ(problems(to), "") << "the first one stands";
+  const fs::path other = folder_ / "other.backup";
+  fs::create_directories(other.string() + ".anchor");
+  EXPECT_NE(message_of<InputError>([&] {
+              back_up(database_, other, BackedUp::kWithoutRecordings);
+            }).find("other.backup.anchor"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(other));
 }
 
 TEST_F(RecordBackup, TellsARecordingThatIsGone) {

@@ -131,6 +131,10 @@ std::string compare_section(const AttemptView& view, const Frame& frame) {
           why_refused(frame, "compare") + "<p><button>Compare</button></p></form>");
 }
 
+std::string changed_notice(const AttemptView& view) {
+  return view.changed ? "<p class=\"warning\">" + shape("integrity") + kChangedAttempt + "</p>" : "";
+}
+
 std::string title(const AttemptView& view, const Frame& frame) {
   const std::string path = "/attempt/" + url_part(view.result.uuid), code = view.result.trainee;
   return "<div class=\"title\"><h1>" + escape_html(view.exercise) + " " + escape_html(view.result.level) +
@@ -179,13 +183,13 @@ std::string attempt_page(const AttemptView& view, Frame frame) {
   frame.title = view.exercise + " " + view.result.level + ", " + view.result.trainee;
   frame.title_verbatim = true;
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
-  return document(frame, title(view, frame) + verdict_band(view) + moment_section(view) + "<div class=\"two\"><div>" +
-                             subscore_table(view) + notes_section(view.notes, note_action, frame) + "</div><div>" +
-                             sign_off_section(view, frame) + "</div></div>" + event_table(view) +
-                             compare_section(view, frame) + rating_section(view, frame) + heat_section(view) +
-                             path_section(view) + film_section(view, frame) + metric_table(view) +
-                             "<div class=\"two\"><div>" + device_facts(view) + "</div><div>" + origin_facts(view) +
-                             "</div></div>" + pace_section(view));
+  return document(
+      frame, title(view, frame) + changed_notice(view) + verdict_band(view) + moment_section(view) +
+                 "<div class=\"two\"><div>" + subscore_table(view) + notes_section(view.notes, note_action, frame) +
+                 "</div><div>" + sign_off_section(view, frame) + "</div></div>" + event_table(view) +
+                 compare_section(view, frame) + rating_section(view, frame) + heat_section(view) + path_section(view) +
+                 film_section(view, frame) + metric_table(view) + "<div class=\"two\"><div>" + device_facts(view) +
+                 "</div><div>" + origin_facts(view) + "</div></div>" + pace_section(view));
 }
 
 }  // namespace trocar::review

@@ -250,7 +250,7 @@ std::string cohort_page(const CohortView& view, Frame frame) {
                                                         "Certificates (CSV)")
                                       : "") +
                     (frame.pdf ? " " + link_html("/report/cohort.pdf" + with(asked, "", ""), "PDF") : "") +
-                    "</p></div><div class=\"states\">";
+                    "</p></div>" + unread_rules_notice(view.rules_unread) + "<div class=\"states\">";
   for (const CardWords& words : kCards) out += card(view, words);
   out += "</div>";
   if (!view.any_attempt) out += beginning(frame);

@@ -210,9 +210,9 @@ std::string curriculum_page(const CurriculumView& view, Frame frame) {
   return document(
       frame,
       "<div class=\"title\"><h1>Curriculum</h1><p class=\"dim\">Rules and benchmarks are versions: added, never "
-      "changed.</p></div><div class=\"two\"><div>" +
-          editor(view, frame) + "</div><div>" + versions(view) + groups(view, frame) + "</div></div>" +
-          benchmarks(view, frame) + difficulties(view));
+      "changed.</p></div>" +
+          unread_rules_notice(view.rules_unread) + "<div class=\"two\"><div>" + editor(view, frame) + "</div><div>" +
+          versions(view) + groups(view, frame) + "</div></div>" + benchmarks(view, frame) + difficulties(view));
 }
 
 std::string message_page(const std::string& title, const std::string& words, Frame frame) {

@@ -162,6 +162,13 @@ std::string why_refused(const Frame& frame, const std::string& form) {
          escape_html(sentence(frame.refused.why)) + "</p>";
 }
 
+std::string unread_rules_notice(const std::string& why) {
+  if (why.empty()) return "";
+  return "<p class=\"warning\">" + shape("integrity") +
+         "Newer rules are kept here and do not rule: " + escape_html(why) +
+         ". Those before them are in force until newer ones are saved.</p>";
+}
+
 std::string refused_field(const Frame& frame, const std::string& form) {
   if (frame.refused.form != form) return "";
   return " aria-invalid=\"true\" autofocus=\"autofocus\" aria-describedby=\"why-" + escape_html(form) + "\"";

@@ -50,6 +50,8 @@ std::string kept(const Frame& frame, const std::string& form, const std::string&
                  const std::string& otherwise = "");
 /// Why that form was refused, for the place below its field; "" when it was not.
 std::string why_refused(const Frame& frame, const std::string& form);
+/// That newer rules of progress cannot be read; "" where `why` is.
+std::string unread_rules_notice(const std::string& why);
 /// Attributes that tie the field to that reason; "" when it was not refused.
 std::string refused_field(const Frame& frame, const std::string& form);
 /// A message of the program as a sentence: first letter large, a stop at its end, folders of the machine left out.

@@ -12,6 +12,7 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/level_reader.h"
 #include "trainees/desk/server/path_redaction.h"
+#include "trainees/integrity/attempt_chain.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/replica_facts.h"
@@ -180,6 +181,8 @@ AttemptView attempt_view(Desk& desk, const Request& request, const std::string& 
   view.ratings = assessments.ratings_of(view.result.uuid);
   for (Note& note : assessments.notes_of(view.result.trainee))
     if (note.attempt_uuid == view.result.uuid) view.notes.push_back(std::move(note));
+  view.changed = !desk::of_erased(desk.database.connection(), view.result.uuid) &&
+                 !attempt_vouched(desk.database.connection(), detail.summary.row);
   view.unsigned_words = unsigned_words(desk.database, view.result.uuid);
   add_certificates(view, desk.database);
   view.curve_decisions = decisions_of_curve(desk.database, view.result);

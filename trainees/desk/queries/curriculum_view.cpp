@@ -263,6 +263,7 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
                      (version.empty() ? "" : " were saved as no. " + version) + " are kept here");
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;
+  view.rules_unread = rules.unread;
   for (const Account& account : AccountStore(desk.database).list()) view.authors[account.uuid] = account.name;
   view.benchmarks = store.benchmarks();
   add_groups(view, store);

@@ -24,7 +24,7 @@ namespace trocar {
 
 /// Curriculum whose newest version holds the rules of progress.
 inline constexpr const char* kRulesName = "standard";
-/// Its rules; without one those that are shipped. @throws InputError when its text is none.
+/// Those of its newest version that can be read, else those that are shipped.
 ProgressRules rules_in_force(Database& database);
 
 /// Empty fields do not filter.

@@ -261,6 +261,7 @@ CohortView cohort_view(Desk& desk, const Request& request) {
                 argument(request.query, "sort"),  whole_number(argument(request.query, "page"), 1)};
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;
+  view.rules_unread = rules.unread;
   view.groups = CurriculumStore(desk.database).groups();
   view.exercises = exercise_choices(desk.database);
   view.levels = distinct_attempt_values(desk.database, "level");

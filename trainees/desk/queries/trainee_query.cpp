@@ -174,9 +174,19 @@ std::vector<PastAttempt> ended_by_device(const std::vector<PastAttempt>& newest_
 }  // namespace
 
 ProgressRules rules_in_force(Database& database) {
-  const auto kept = CurriculumStore(database).newest(kRulesName);
-  if (!kept) return {};
-  return read_progress_rules(kept->toml, "curriculum " + kept->name + ", version " + std::to_string(kept->version));
+  ProgressRules rules;
+  std::string unread;
+  CurriculumStore(database).newest(kRulesName, [&](const Curriculum& one) {
+    try {
+      rules = read_progress_rules(one.toml, "curriculum " + one.name + ", version " + std::to_string(one.version));
+      return true;
+    } catch (const InputError& error) {  // fetched from a newer program, say: those before it rule on
+      if (unread.empty()) unread = error.what();
+      return false;
+    }
+  });
+  rules.unread = unread;
+  return rules;
 }
 
 TraineeDetail trainee_detail(Database& database, const std::string& code, const ProgressRules& rules,

@@ -57,7 +57,7 @@ struct CohortView {
   std::vector<CohortEntry> lines = {};  ///< of group, exercise and level; state and order are the page's work
   bool any_attempt = false;             ///< in the whole record
   int erased = 0;                       ///< people whose training data were erased: in no line and no count
-  std::string rules_version = {};
+  std::string rules_version = {}, rules_unread = {};
 };
 
 struct CurvePoint {
@@ -189,6 +189,12 @@ struct CitedCertificate {
   std::string in_question = {};  ///< why it may not stand
 };
 
+/// What page and paper say of one that is not as it was finished.
+inline constexpr const char* kChangedAttempt =
+    "This attempt is not as it was when it was finished, or its entry is not signed with the station's key: what "
+    "stands "
+    "here proves nothing. trocar db check names it.";
+
 struct AttemptView {
   AttemptResult result = {};
   std::int64_t number = 0;  ///< in this database
@@ -213,6 +219,7 @@ struct AttemptView {
   std::vector<VerdictOverride> overrides = {};  ///< newest first
   std::vector<Rating> ratings = {};
   std::vector<Note> notes = {};
+  bool changed = false;         ///< after it was finished, or no signed entry says that it was
   bool unsigned_words = false;  ///< one of these four, or a decision, is not signed by the station or was changed since
   std::vector<Rival> rivals = {};
   std::optional<Judgement> ready = {};  ///< evidence for a certificate
@@ -272,6 +279,7 @@ struct CurriculumView {
   std::map<std::string, std::string> authors = {};      ///< names by account
   DifficultyView difficulties = {};
   std::string rules_version = {};  ///< in force
+  std::string rules_unread = {};   ///< why newer ones are not
   std::string name = "standard", text = {}, problem = {}, saved = {};
   std::optional<std::vector<PassPreview>> preview = {};
   std::vector<Benchmark> benchmarks = {};

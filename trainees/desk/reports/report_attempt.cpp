@@ -283,6 +283,7 @@ printed::Report attempt_report(const AttemptReportView& report, const ReportSett
   out.newest_utc = newest_entry(view, setting.notes);
   out.mark = mark_of(setting);
   out.blocks = {verdict(view)};
+  if (view.changed) out.blocks.emplace_back(Paragraph{kChangedAttempt, Tone::kBad, true});
   if (const std::string soft = soft_real_time(view.result.device); view.result.grade.score && !soft.empty())
     out.blocks.emplace_back(Paragraph{soft, Tone::kBad, true});
   for (const VerdictOverride& o : view.overrides)

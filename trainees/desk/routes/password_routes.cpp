@@ -7,8 +7,6 @@
 namespace trocar::review {
 namespace {
 
-constexpr const char* kPassword = "/password";
-
 Response password(const Request& request, Desk& desk) {
   Frame frame = frame_of(request, desk);
   if (argument(request.query, "set") == "yes")
@@ -30,14 +28,14 @@ Response set_password(const Request& request, Desk& desk) {
     frame.refused = {"password", error.what(), {}};
     return {.status = 400, .body = password_page(account.role == Role::kTrainee, frame)};
   }
-  return see(std::string(kPassword) + "?set=yes");
+  return see(std::string(kPasswordPath) + "?set=yes");
 }
 
 }  // namespace
 
 std::vector<Route> password_routes() {
-  return {{"GET", kPassword, Audience::kSignedIn, password},
-          {"POST", kPassword, Audience::kSignedIn, set_password, true}};
+  return {{"GET", kPasswordPath, Audience::kSignedIn, password},
+          {"POST", kPasswordPath, Audience::kSignedIn, set_password, true}};
 }
 
 }  // namespace trocar::review

@@ -145,6 +145,9 @@ enum class Audience : std::uint8_t {
   kAdministrators,
 };
 
+/// Where one sets one's own password: the one form after which a sign-in goes on under another stamp.
+inline constexpr const char* kPasswordPath = "/password";
+
 struct Route {
   std::string method, path;
   Audience audience = Audience::kInstructors;

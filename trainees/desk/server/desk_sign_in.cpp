@@ -104,15 +104,18 @@ DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string&
     return {.wait_s = seconds, .why = waiting_words(seconds)};
   }
   AccountStore accounts(context.desk.database);
+  // Before the password is looked at, which takes a while: one that is reset meanwhile must not get the new one's
+  // stamp.
+  const auto known = accounts.find(login);
+  const std::string stamp = known ? sign_in_stamp(context.desk.database, known->uuid) : "";
   Try out{.account = accounts.verify(login, password)};
-  if (out.account) out.stamp = sign_in_stamp(context.desk.database, out.account->uuid);
+  if (out.account && known && out.account->uuid == known->uuid) out.stamp = stamp;
   if (!out.stamp.empty()) {
     limit.was_right(login, context.incoming.address);
     return out;
   }
   say("sign-in refused: " + who);
   if (limit.tell_held_back(login, context.incoming.address, context.now)) {
-    const auto known = accounts.find(login);
     try {
       accounts.held_back(known ? known->uuid : "");
     } catch (const DiskFull& error) {
@@ -173,8 +176,9 @@ bool DeskGate::recorded_late(RequestContext& context) {
   return true;
 }
 
-/// A new password ends every sign-in of the account but the one that set it.
+/// A new password ends every sign-in of the account but the one that set it, and gave the old one for it.
 void DeskGate::renew_session(RequestContext& context) {
+  if (!context.request.unconfirmed.empty() || context.found.route->path != kPasswordPath) return;
   if (!context.request.account || context.request.account->uuid.empty()) return;
   const std::string stamp = sign_in_stamp(context.desk.database, context.request.account->uuid);
   const auto session = sessions_.find(context.number, context.now);

@@ -11,6 +11,7 @@
 #include "tests/app/cli/command_samples.h"
 #include "tests/app/session/recording/recording_samples.h"
 #include "tests/trainees/exchange/export/export_samples.h"
+#include "tests/trainees/records/store_samples.h"
 #include "trainees/exchange/export/jigsaws.h"
 #include "trainees/exchange/export/xapi.h"
 
@@ -69,6 +70,16 @@ TEST_F(ExportCommand, CsvAndJsonHoldEveryAttempt) {
   EXPECT_EQ(run("json", folder_ / "all.json", {"B", "", ""}), 0);
   EXPECT_EQ(json::parse(bytes_of_file(folder_ / "all.json"))["attempts"].size(), 1u);
   EXPECT_EQ(out_.str(), "1 attempt in " + (folder_ / "all.json").string() + "\n");
+}
+
+TEST_F(ExportCommand, WhatWasChangedIsExportedAndTold) {
+  EXPECT_EQ(run("csv", folder_ / "tables"), 0);
+  EXPECT_EQ(err_.str(), "");
+  ASSERT_EQ(run_without_triggers(file_, "UPDATE score SET value = 99 WHERE value = 60"), "");
+  EXPECT_EQ(run("json", folder_ / "all.json"), 0);
+  EXPECT_EQ(err_.str(), "trocar: attempt " + plain_.uuid +
+                            ": not as when finished, or the entry is not signed; exported as the database has it, see "
+                            "trocar db check\n");
 }
 
 TEST_F(ExportCommand, StatementsCarryThePassMarkOfTheirRuleset) {

@@ -37,6 +37,14 @@ TEST(AttemptPage, WhatIsNotSignedIsToldAboveWhatPeopleSaid) {
   EXPECT_NE(attempt_page(view, sample_frame()).find(told), std::string::npos);
 }
 
+TEST(AttemptPage, ThatItWasChangedStandsAboveItsVerdict) {
+  AttemptView view = sample_attempt();
+  EXPECT_EQ(attempt_page(view, sample_frame()).find(kChangedAttempt), std::string::npos);
+  view.changed = true;
+  const std::string page = attempt_page(view, sample_frame());
+  EXPECT_LT(page.find("not as it was when it was finished"), page.find("class=\"verdict"));
+}
+
 TEST(AttemptPage, VerdictComesFirstWithItsOneReason) {
   const CheckedPage page = check_page(attempt_page(sample_attempt(), sample_frame()));
   const auto band = page.all("section", "verdict");

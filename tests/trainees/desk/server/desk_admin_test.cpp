@@ -133,11 +133,13 @@ TEST_F(DeskAdmin, TheRecordIsCountedCheckedAndCopied) {
   fs::copy_file(folder_ / view.backups[0].name, folder_ / "copy.db");
   Database copy(folder_ / "copy.db");
   EXPECT_EQ(AttemptStore(copy).list().size(), 4U);
+  EXPECT_EQ(page("/attempt/" + annas_, here).find("not as it was when it was finished"), std::string::npos);
   EXPECT_EQ(run_without_triggers(file_, "UPDATE attempt SET board = 99 WHERE uuid = '" + annas_ + "'"), "");
   const std::string broken = ask("POST", "/record/check", here).response.body;
   EXPECT_EQ(broken.find("Sound: file"), std::string::npos);
   EXPECT_NE(broken.find("Change nothing, keep the backups"), std::string::npos);
   EXPECT_EQ(broken.find("is missing: what is written now"), std::string::npos);
+  EXPECT_NE(page("/attempt/" + annas_, here).find("not as it was when it was finished"), std::string::npos);
   fs::remove(key_path(file_));
   EXPECT_NE(page("/record", here).find("desk.db.key is missing: what is written now is not signed"), std::string::npos);
 }

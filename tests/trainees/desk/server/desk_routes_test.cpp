@@ -361,6 +361,25 @@ TEST_F(DeskRoutes, WhoMaySeeWhat) {
   }
 }
 
+TEST_F(DeskRoutes, RulesThatCannotBeReadLeaveThoseBeforeThemInForce) {
+  CurriculumStore store(database_);
+  store.add(kRulesName, kRules, {});
+  const std::string version = rules_in_force(database_).version;
+  store.add(kRulesName, "version = \"9\"\n[unlock]\nfuture = 3\n", {});  // of a newer program
+  EXPECT_EQ(rules_in_force(database_).version, version);
+  for (const char* path : {"/", "/curriculum"}) {
+    const Response shown = ask("GET", path);
+    EXPECT_EQ(shown.status, 200) << path;
+    EXPECT_NE(shown.body.find("Newer rules are kept here and do not rule: curriculum standard, version 2"),
+              std::string::npos)
+        << path;
+  }
+  const std::string mended = "version = \"10\"\n";
+  EXPECT_EQ(ask("POST", "/curriculum", {{"do", "save"}, {"name", kRulesName}, {"toml", mended}}).status, 303);
+  EXPECT_EQ(rules_in_force(database_).version, "10");
+  EXPECT_EQ(ask("GET", "/").body.find("Newer rules"), std::string::npos);
+}
+
 TEST_F(DeskRoutes, WhoseTrainingDataWereErasedIsInNoLineAndNoCount) {
   const auto lines = [&] { return cohort_lines(database_, rules_in_force(database_), {}, "2026-06-01T10:00:00Z"); };
   const auto of_them = [&](const std::string& who) {
