@@ -26,8 +26,8 @@ const std::vector<std::string>& sealed_tables();
 /// Actor of the entries of rows that came from a central database.
 inline constexpr const char* kFromCentre = "centre";
 
-/// A UUID for a new row, greater than that of every row of the table that is here. Call inside the transaction that
-/// inserts the row.
+/// A UUID for a new row, greater than that of every row of the table that is here and holds: one that does not counts
+/// nowhere. Call inside the transaction that inserts the row.
 std::string next_row_uuid(sqlite3* connection, const std::string& table);
 
 /// SQL " ORDER BY ..." that has the newest row first: of those written here the one whose entry in the trail is the

@@ -191,9 +191,8 @@ struct CitedCertificate {
 
 /// What page and paper say of one that is not as it was finished.
 inline constexpr const char* kChangedAttempt =
-    "This attempt is not as it was when it was finished, or its entry is not signed with the station's key: what "
-    "stands "
-    "here proves nothing. trocar db check names it.";
+    "This attempt is not as it was when it was finished, or its entry is not signed with the station's key: "
+    "what stands here proves nothing. trocar db check names it.";
 
 struct AttemptView {
   AttemptResult result = {};
