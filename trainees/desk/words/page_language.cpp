@@ -14,9 +14,9 @@ namespace {
 constexpr int kDeepestPart = 8;  ///< parts in parts
 constexpr std::array<std::string_view, 12> kEnglishMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                              "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-constexpr std::array<std::string_view, 30> kUnits = {
-    "B", "rad", "rad/s", "N^2", "1/s", "%",      "mm",  "mm/s", "m",  "m/s", "s",  "N",   "N/s", "N s", "N/mm",
-    "J", "Hz",  "kHz",   "deg", "mL",  "mL/min", "min", "h",    "MB", "kB",  "ms", "UTC", "kg",  "SD",  "x"};
+constexpr std::array<std::string_view, 31> kUnits = {
+    "B",  "rad", "rad/s", "N^2", "1/s",    "%",   "mm", "mm/s", "m",  "m/s", "s",  "N",   "N/s", "N s", "N/mm", "J",
+    "Hz", "kHz", "deg",   "mL",  "mL/min", "min", "h",  "GB",   "MB", "kB",  "ms", "UTC", "kg",  "SD",  "x"};
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool small(char c) { return c >= 'a' && c <= 'z'; }
@@ -278,12 +278,16 @@ bool PageLanguage::fits(const Form& form, std::size_t piece, std::string_view te
   return false;
 }
 
-PageLanguage::Found PageLanguage::filled(std::string_view english, int depth, Asking& asking) const {
+/// @param literal letters that a form must say by itself to be better than what was found; then those that it says.
+PageLanguage::Found PageLanguage::filled(std::string_view english, int depth, Asking& asking,
+                                         std::size_t& literal) const {
   constexpr std::size_t kLongestPlaced = 400;  // longer ones are several sentences
+  Found best;
   for (const auto* some : {&by_first_.at(static_cast<unsigned char>(english[0])), &placed_}) {
     if (some == &placed_ && english.size() > kLongestPlaced) break;
     for (const std::uint32_t i : *some) {
       const Form& form = forms_[i];
+      if (form.literal <= literal) break;
       if (form.literal > english.size() || english.find(form.longest) == std::string_view::npos) continue;
       Values values;
       if (!fits(form, 0, english, depth, values, asking)) continue;
@@ -294,10 +298,12 @@ PageLanguage::Found PageLanguage::filled(std::string_view english, int depth, As
                : piece.kind == 'n' ? values.n[piece.number]
                : piece.kind == 'p' ? values.p[piece.number]
                                    : values.t[piece.number];
-      return out;
+      literal = form.literal;
+      best = std::move(out);
+      break;
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 PageLanguage::Found PageLanguage::whole(const std::string& english, Asking& asking) const {
@@ -307,16 +313,25 @@ PageLanguage::Found PageLanguage::whole(const std::string& english, Asking& aski
   return at->second;
 }
 
-PageLanguage::Found PageLanguage::known(std::string_view english, int depth, Asking& asking) const {
-  if (auto out = whole(std::string(english), asking)) return out;
-  if (numeric(english)) return number(english);
-  if (auto out = filled(english, depth, asking)) return out;
-  if (!large(english[0])) return std::nullopt;
+/// As it stands and with a small first letter. @param literal as of filled().
+PageLanguage::Found PageLanguage::known(std::string_view english, int depth, Asking& asking,
+                                        std::size_t& literal) const {
+  if (english.size() <= literal) return std::nullopt;
   std::string lower(english);
-  lower[0] = static_cast<char>(lower[0] + 32);
-  auto out = whole(lower, asking);
-  if (!out) out = filled(lower, depth, asking);
-  return out ? Found(with_capital(std::move(*out))) : std::nullopt;
+  if (large(lower[0])) lower[0] = static_cast<char>(lower[0] + 32);
+  const bool capital = lower != english;
+  Found out = whole(std::string(english), asking);
+  if (!out && numeric(english)) out = number(english);
+  if (!out && capital)
+    if (auto own = whole(lower, asking)) out = with_capital(std::move(*own));
+  if (out) {
+    literal = english.size();
+    return out;
+  }
+  out = filled(english, depth, asking, literal);
+  if (capital)
+    if (auto better = filled(lower, depth, asking, literal)) out = with_capital(std::move(*better));
+  return out;
 }
 
 /// What stands between two parts: French has a space before a semicolon too.
@@ -348,9 +363,14 @@ PageLanguage::Found PageLanguage::found(std::string_view english, int depth, Ask
 }
 
 PageLanguage::Found PageLanguage::resolved(std::string_view english, int depth, Asking& asking) const {
-  if (auto out = known(english, depth, asking)) return out;
-  if (english.size() > 1 && english.ends_with('.'))
-    if (auto out = known(english.substr(0, english.size() - 1), depth, asking)) return *out + ".";
+  std::size_t literal = 0;
+  Found best;
+  if (english.size() > 1 && english.ends_with('.') && !exact_.contains(std::string(english))) {
+    best = known(english.substr(0, english.size() - 1), depth, asking, literal);
+    if (best) *best += '.';
+  }
+  if (auto better = known(english, depth, asking, literal)) best = std::move(better);
+  if (best) return best;
   const std::size_t from = english.find_first_not_of(",.;:() ");
   if (from == std::string_view::npos) return std::string(english);
   const std::size_t to = english.find_last_not_of(",;:() ") + 1;

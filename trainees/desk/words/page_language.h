@@ -8,6 +8,7 @@
 //
 // Looked up are texts between tags and the attributes alt, aria-label, data-words (what the script says), placeholder
 // and title, each as a whole; then without punctuation round it, with a small first letter, and sentence by sentence.
+// Of the entries that fit a text so, with its full stop or without, the one that says most of it by itself counts.
 // Elements with translate="no", code, classes "mono", "said" and "written", style and script are left alone: what
 // people wrote stands there. docs/decisions/0031-desk-languages.md says why it is done this way. Plain values, any
 // thread.
@@ -72,9 +73,9 @@ class PageLanguage {
   void add(const std::string& key, const std::string& own);
   Found found(std::string_view english, int depth, Asking& asking) const;
   Found resolved(std::string_view english, int depth, Asking& asking) const;
-  Found known(std::string_view english, int depth, Asking& asking) const;
+  Found known(std::string_view english, int depth, Asking& asking, std::size_t& literal) const;
   Found whole(const std::string& english, Asking& asking) const;
-  Found filled(std::string_view english, int depth, Asking& asking) const;
+  Found filled(std::string_view english, int depth, Asking& asking, std::size_t& literal) const;
   Found sentences(std::string_view english, int depth, Asking& asking) const;
   bool fits(const Form& form, std::size_t piece, std::string_view text, int depth, Values& values,
             Asking& asking) const;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "haptics/input_error.h"
@@ -15,6 +17,7 @@
 #include "tests/trainees/desk/server/desk_samples.h"
 #include "tests/trainees/records/cohort_samples.h"
 #include "trainees/desk/pages/desk_page.h"
+#include "trainees/desk/pages/page_frame.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/routes/route_table.h"
 #include "trainees/records/attempt_store.h"
@@ -220,18 +223,28 @@ TEST_F(AllPages, NamesAndNotesStayWhateverTheySay) {
   EXPECT_EQ(check_page(german_page("/grid", {{"programme", "Grid"}})).all("h1").at(0)->text, "Grid");
 }
 
+/// Sources in a room of the tree, or that one.
+std::vector<std::filesystem::path> sources_in(const char* room) {
+  if (std::filesystem::is_regular_file(kTree / room)) return {kTree / room};
+  std::vector<std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kTree / room))
+    for (const char* kind : {".cpp", ".h", ".toml"})
+      if (entry.path().extension() == kind) out.push_back(entry.path());
+  return out;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
 /// Entries that sample pages do not show: their words stand together in the sources that make pages.
 TEST_F(AllPages, NothingIsTranslatedInVain) {
   std::string sources;
   for (const char* room : {"trainees", "scenarios", "app"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kTree / room)) {
-      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h" && entry.path().extension() != ".toml")
-        continue;
-      std::ifstream file(entry.path());
-      std::stringstream text;
-      text << file.rdbuf();
-      sources += text.str();
-    }
+    for (const std::filesystem::path& file : sources_in(room)) sources += text_of(file);
   const auto plain = [](const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -264,6 +277,242 @@ TEST_F(AllPages, NothingIsTranslatedInVain) {
       }
     }
   }
+}
+
+/// Where what can reach a page is thrown.
+constexpr const char* kRefusing[] = {"trainees/desk",
+                                     "trainees/files",
+                                     "trainees/integrity",
+                                     "trainees/progress",
+                                     "trainees/records",
+                                     "trainees/store",
+                                     "trainees/exchange/export/export_choice.cpp",
+                                     "app/desk/desk_films.cpp",
+                                     "app/desk/desk_pictures.cpp",
+                                     "app/desk/demo_cohort.cpp",
+                                     "haptics/toml_keys.cpp"};
+
+/// What no page shows: the source, and words of the text where not all of it is meant.
+struct Unshown {
+  const char *source, *words;
+};
+constexpr Unshown kUnshown[] = {
+    // Said at the terminal that starts the desk, or makes the demo.
+    {"trainees/desk/server/desk_server.cpp", ""},
+    {"trainees/desk/server/tls_identity.cpp", ""},
+    {"trainees/desk/words/page_language.cpp", ""},
+    {"app/desk/demo_cohort.cpp", ": exists already"},
+    {"app/desk/demo_cohort.cpp", "in the meantime"},
+    {"trainees/records/demo_record.cpp", ""},
+    // Before the first page: another program's database, or one of an earlier version, is opened.
+    {"trainees/store/database.cpp", "no place for the database"},
+    {"trainees/store/migrations.cpp", "of another program"},
+    {"trainees/store/migrations.cpp", "holds its texts as"},
+    {"trainees/store/migrations.cpp", "migrating would break"},
+    {"trainees/store/migrations.cpp", "the backup is not whole"},
+    {"trainees/store/migrations.cpp", "is of schema"},
+    {"trainees/store/migrations.cpp", "was written by a newer trocar"},
+    // Commands of the command line alone.
+    {"trainees/files/password_file.cpp", ""},
+    {"trainees/files/write_file.cpp", ""},
+    {"trainees/integrity/witness.cpp", ""},
+    {"trainees/records/consents.cpp", ""},
+    {"trainees/records/erasure.cpp", ""},
+    {"trainees/records/person_record.cpp", ""},
+    // Attempts are begun and stored by the window.
+    {"trainees/records/attempt_rows.cpp", "at most 1024 sub-scores"},
+    {"trainees/records/attempt_store.cpp", "the attempt is still"},
+    {"trainees/records/attempt_store.cpp", "is another trainee's"},
+    {"trainees/records/attempt_store.cpp", "an exam board is met once"},
+    {"trainees/records/attempt_store.cpp", "before it began"},
+    {"trainees/records/attempt_store.cpp", "cannot be finished again"},
+    {"trainees/records/attempt_store.cpp", "its row was changed while it ran"},
+    {"trainees/records/process_identity.cpp", ""},
+    {"trainees/store/lookup_tables.cpp", ""},
+    // The sign-in's own 503, which says only that the desk is busy; a mistake of the program.
+    {"trainees/desk/server/desk_sessions.cpp", ""},
+    {"trainees/integrity/sealed_rows.cpp", "no table whose rows are sealed"}};
+
+/// Throws without words of their own: what they say comes from another source, or from the reader of TOML.
+const std::set<std::string> kSaidElsewhere = {"why", "what", "message", "request.unconfirmed",
+                                              "std::string(error.description())"};
+
+constexpr const char *kTyped = "A-17", *kCounted = "7";
+
+/// What stands for operands that are neither typed nor counted, by source and name.
+const std::map<std::string, std::string> kOperands = {
+    {"accounts role", "instructor"},
+    {"accounts role_name", "instructor"},
+    {"assessments by", " by decision of A-17 on 2026-06-30"},
+    {"assessments what", "rating A-17, A-17"},
+    {"attempt_chain what", "signed"},
+    {"curricula lost", "its key A-17 is missing: what is written now is not signed, which db check tells for ever"},
+    {"curricula range_words", "from 0 to 100"},
+    {"curriculum_view by", "the one that came with the program"},
+    {"database other", "trigger A-17 was altered"},
+    {"desk_films foreign", "another file lies in the place of its recording"},
+    {"desk_pictures foreign", "another file lies in the place of its recording"},
+    {"desk_pictures one.run.failure", "another file lies in the place of its recording"},
+    {"export_choice what", "group"},
+    {"film_routes desk.sources.no_film", "No film: this desk makes none."},
+    {"password_rules name", "password"},
+    {"people_import name", "list"},
+    {"people_import row.reason", "has no code"},
+    {"printed_text what", "note"},
+    {"programme place", "programme \"A-17\", step 7: "},
+    {"programme_view what", "step 7, passes"},
+    {"programme_view which", "step 7, "},
+    {"record_backup size_text", "1.2 GB"},
+    {"rules called", "'A-17'"},
+    {"rules short_text", "7"},
+    {"signing why", "accounts are kept here, so only an account can sign: sign in first"},
+    {"sqlite_handle message", "A-17: cannot run a statement: A-17"}};
+
+/// Where the sign stands next, outside of texts and of brackets; where the bracket ends that `from` is in.
+std::size_t next_sign(const std::string& code, std::size_t from, char sign) {
+  int open = 0;
+  for (std::size_t at = from; at < code.size(); ++at) {
+    const char c = code[at];
+    if (c == '"' || c == '\'') {
+      while (++at < code.size() && code[at] != c) at += code[at] == '\\' ? 1 : 0;
+    } else if (std::string_view("([{").find(c) != std::string_view::npos) {
+      ++open;
+    } else if (std::string_view(")]}").find(c) != std::string_view::npos) {
+      if (open-- == 0) return at;
+    } else if (code.compare(at, 2, "::") == 0) {
+      ++at;
+    } else if (c == sign && open == 0) {
+      return at;
+    }
+  }
+  return code.size();
+}
+
+std::vector<std::string> parts_of(const std::string& code, char sign) {
+  std::vector<std::string> out;
+  for (std::size_t from = 0, to = 0; from <= code.size(); from = to + 1) {
+    to = next_sign(code, from, sign);
+    std::string part = code.substr(from, to - from);
+    part.erase(0, part.find_first_not_of(" \n"));
+    part.erase(part.find_last_not_of(" \n") + 1);
+    out.push_back(std::move(part));
+  }
+  return out;
+}
+
+/// What an expression of texts can say. @param source its file's name
+std::vector<std::string> said_by(const std::string& code, const std::string& source) {
+  if (const std::size_t either = next_sign(code, 0, '?'); either < code.size()) {
+    const std::size_t otherwise = next_sign(code, either + 1, ':');
+    std::vector<std::string> out = said_by(code.substr(either + 1, otherwise - either - 1), source);
+    for (std::string& text : said_by(code.substr(otherwise + 1), source)) out.push_back(std::move(text));
+    return out;
+  }
+  const std::vector<std::string> operands = parts_of(code, '+');
+  if (operands.size() > 1) {
+    std::vector<std::string> out{""};
+    for (const std::string& operand : operands) {
+      std::vector<std::string> longer;
+      for (const std::string& before : out)
+        for (const std::string& text : said_by(operand, source)) longer.push_back(before + text);
+      out = std::move(longer);
+    }
+    return out;
+  }
+  const std::string& one = operands[0];
+  if (one.starts_with('"')) {
+    static const std::regex literal("\"((\\\\.|[^\"\\\\])*)\""), escape("\\\\(.)");
+    std::string text;
+    for (auto it = std::sregex_iterator(one.begin(), one.end(), literal); it != std::sregex_iterator(); ++it)
+      text += std::regex_replace((*it)[1].str(), escape, "$1");
+    return {text};
+  }
+  for (const std::string_view wrapped : {"std::string(", "("})
+    if (one.starts_with(wrapped)) return said_by(one.substr(wrapped.size(), one.size() - wrapped.size() - 1), source);
+  if (one.starts_with("std::to_string(")) return {kCounted};
+  const auto at = kOperands.find(source + " " + one.substr(0, one.find('(')));
+  return {at == kOperands.end() ? kTyped : at->second};
+}
+
+struct Refusal {
+  std::string source = {}, place = {}, text = {};
+};
+
+/// What a source throws, or answers instead of a page, as a sentence of it.
+std::vector<Refusal> refusals_in(const std::filesystem::path& file) {
+  static const std::regex refusing(
+      "throw (InputError|EnvironmentError|error_at|step_error|fault)\\(|return refused\\(|error_page\\(");
+  std::vector<Refusal> out;
+  const std::string code = text_of(file), source = std::filesystem::relative(file, kTree).generic_string();
+  for (auto it = std::sregex_iterator(code.begin(), code.end(), refusing); it != std::sregex_iterator(); ++it) {
+    const auto begin = static_cast<std::size_t>(it->position() + it->length());
+    const std::string place =
+        source + ":" + std::to_string(1 + std::count(code.begin(), code.begin() + it->position(), '\n'));
+    const std::vector<std::string> arguments = parts_of(code.substr(begin, next_sign(code, begin, '\0') - begin), ',');
+    const bool page = it->str().starts_with("error_page");
+    const std::string said = page ? arguments[std::min<std::size_t>(1, arguments.size() - 1)] : arguments.back();
+    if (std::regex_replace(said, std::regex("\"\""), "").find('"') == std::string::npos) {
+      const bool thrown = it->str().starts_with("throw");
+      EXPECT_TRUE(!thrown || kSaidElsewhere.contains(said)) << place << ": " << said;
+      continue;
+    }
+    for (const std::string& text : said_by(said, file.stem().string()))
+      if (!text.empty()) out.push_back({source, place, text});
+  }
+  return out;
+}
+
+std::ptrdiff_t times(const std::string& text, const std::string& part) {
+  std::ptrdiff_t out = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++out;
+  return out;
+}
+
+TEST(Refusals, HaveATranslationAndKeepWhatWasTyped) {
+  const PageLanguage languages[] = {{kFolder, "de"}, {kFolder, "fr"}};
+  std::size_t all = 0;
+  std::set<std::string> passed_over;
+  for (const char* room : kRefusing)
+    for (const std::filesystem::path& file : sources_in(room))
+      for (const Refusal& refusal : refusals_in(file)) {
+        const auto* unshown = std::find_if(std::begin(kUnshown), std::end(kUnshown), [&](const Unshown& one) {
+          return refusal.source == one.source && refusal.text.find(one.words) != std::string::npos;
+        });
+        if (unshown != std::end(kUnshown)) {
+          passed_over.insert(std::string(unshown->source) + unshown->words);
+          continue;
+        }
+        ++all;
+        const std::string english = sentence(refusal.text);
+        for (const PageLanguage& language : languages) {
+          AskedWords asked;
+          const std::string own = language.words(english, &asked);
+          EXPECT_TRUE(asked.unknown.empty() && own != english && times(own, kTyped) == times(english, kTyped))
+              << refusal.place << ": " << english << "\n"
+              << language.code() << ": " << own;
+        }
+      }
+  EXPECT_GT(all, 200U);
+  for (const Unshown& one : kUnshown)
+    EXPECT_TRUE(passed_over.contains(std::string(one.source) + one.words))
+        << one.source << " says no more: " << one.words;
+}
+
+TEST(Refusals, AreReadAsTheyStandOnPages) {
+  const PageLanguage german(kFolder, "de"), french(kFolder, "fr");
+  EXPECT_EQ(german.words("Not done. Trainee \"A-17\": there is none."),
+            "Nicht ausgeführt. Den Code „A-17“ hat hier niemand.");
+  EXPECT_EQ(french.words("Not done. Trainee \"A-17\": there is none."),
+            "Non exécuté. Personne n'a ici le code « A-17 ».");
+  EXPECT_EQ(german.words("Not done. Step 3, passes: a whole number from 1 to 100."),
+            "Nicht ausgeführt. Schritt 3, Bestehen: eine ganze Zahl von 1 bis 100.");
+  EXPECT_EQ(german.words("List:3:5: a quote is opened and never closed."),
+            "Liste, Zeile 3, Spalte 5: ein Anführungszeichen wird geöffnet und nie geschlossen.");
+  EXPECT_EQ(french.words("standard:3:4: 'unsafe.window' must be a whole number"),
+            "standard, ligne 3, colonne 4 : 'unsafe.window' doit être un nombre entier");
+  EXPECT_EQ(german.words("Is there already as Ann, deactivated."), "Ist schon da als Ann, deaktiviert.");
+  EXPECT_EQ(german.words("Not done. No certificate. Competence has not been shown: 3 attempts, none passed yet."),
+            "Nicht ausgeführt. Kein Zertifikat. Das Können ist nicht gezeigt: 3 Versuche, noch keiner bestanden.");
 }
 
 TEST_F(AllPages, AnAttemptsPageIsTranslatedInAFewMilliseconds) {
