@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +19,8 @@
 #include "trainees/desk/queries/programme_query.h"
 #include "trainees/desk/routes/route.h"
 #include "trainees/desk/server/desk_memory.h"
+#include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -134,6 +137,30 @@ review::Request as_instructor(std::map<std::string, std::string> arguments = {},
   return request;
 }
 
+/// As the desk gives them, citing every attempt at the skill: to each trainee for each skill with a passed one.
+std::size_t give_certificates() {
+  static const std::size_t held = [] {
+    AssessmentStore store(full_database());
+    if (const std::size_t there = store.certificates_of("").size(); there > 0) return there;
+    sql::Statement skills(full_database().connection(),
+                          "SELECT t.code, a.exercise_id, a.level, max(CASE WHEN s.passed THEN a.uuid END),"
+                          " json_group_array(a.uuid) FROM known_trainee t JOIN attempt a ON a.trainee_id = t.id"
+                          " JOIN score s ON s.attempt_id = a.id AND s.revision = 0 WHERE a.status = 'completed'"
+                          " GROUP BY t.id, a.exercise_id, a.level HAVING max(s.passed) = 1");
+    std::vector<std::array<std::string, 4>> given;
+    while (skills.step())
+      given.push_back(
+          {skills.text(0), skills.text(1), skills.text(2),
+           R"({"attempt":")" + skills.text(3) + R"(","attempts":)" + skills.text(4) + R"(,"overrides":[]})"});
+    const Account signs =
+        AccountStore(full_database()).add("bench", "Bench", Role::kInstructor, "", "a bench's password", "");
+    for (const auto& [code, exercise, level, evidence] : given)
+      store.certify(code, exercise, level, "1", evidence, {signs.uuid, signs.name});
+    return given.size();
+  }();
+  return held;
+}
+
 void page_cohort(benchmark::State& state) { page(state, "/", as_instructor(), false); }
 BENCHMARK(page_cohort)->Unit(benchmark::kMillisecond);
 
@@ -212,6 +239,20 @@ void page_attempt_new(benchmark::State& state) {
   page(state, "/attempt/{attempt}", as_instructor({{"attempt", AttemptStore(full_database()).latest()->uuid}}), true);
 }
 BENCHMARK(page_attempt_new)->Unit(benchmark::kMillisecond);
+
+// Last: from here on the database holds certificates.
+void page_cohort_certified_new(benchmark::State& state) {
+  state.counters["certificates"] = static_cast<double>(give_certificates());
+  page(state, "/", as_instructor(), true);
+}
+BENCHMARK(page_cohort_certified_new)->Unit(benchmark::kMillisecond);
+
+void page_grid_certified_new(benchmark::State& state) {
+  give_programme();
+  state.counters["certificates"] = static_cast<double>(give_certificates());
+  page(state, "/grid", as_instructor({}, {{"programme", "All"}}), true);
+}
+BENCHMARK(page_grid_certified_new)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -28,14 +28,6 @@ std::uint64_t steps_now() {
   return now / 1'000'000 * 4096 + now % 1'000'000 * 4096 / 1'000'000;
 }
 
-bool is_time_ordered(const std::string& uuid) {
-  static constexpr std::string_view kForm = "xxxxxxxx-xxxx-7xxx-vxxx-xxxxxxxxxxxx";
-  return std::equal(uuid.begin(), uuid.end(), kForm.begin(), kForm.end(), [](char is, char form) {
-    const std::string_view digits = form == 'v' ? "89ab" : "0123456789abcdef";
-    return form == 'x' || form == 'v' ? digits.find(is) != std::string_view::npos : is == form;
-  });
-}
-
 /// Of a UUID; 0 of another text.
 std::uint64_t steps_of(const std::string& uuid) {
   unsigned long long high = 0;
@@ -92,6 +84,14 @@ std::string utc_now() {
   const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
   std::snprintf(text + size, sizeof text - size, ".%03dZ", static_cast<int>(now / 1'000'000 % 1000));
   return text;
+}
+
+bool is_time_ordered(const std::string& uuid) {
+  static constexpr std::string_view kForm = "xxxxxxxx-xxxx-7xxx-vxxx-xxxxxxxxxxxx";
+  return std::equal(uuid.begin(), uuid.end(), kForm.begin(), kForm.end(), [](char is, char form) {
+    const std::string_view digits = form == 'v' ? "89ab" : "0123456789abcdef";
+    return form == 'x' || form == 'v' ? digits.find(is) != std::string_view::npos : is == form;
+  });
 }
 
 bool is_name_of_attempt(const std::string& uuid) {

@@ -18,6 +18,9 @@ std::string make_uuid_after(const std::string& before);
 /// "2026-03-01T09:30:00.123Z"
 std::string utc_now();
 
+/// A UUID as make_uuid() makes them: its digits 1 to 8 and 10 to 13 are milliseconds since the epoch.
+bool is_time_ordered(const std::string& uuid);
+
 /// A UUID as this program makes them, which can be the name of a file: nothing that leads out of a folder.
 bool is_name_of_attempt(const std::string& uuid);
 /// @throws InputError: none.

@@ -135,7 +135,9 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
       out.in_question = "the attempt that it cites is no longer the one that was certified";
     out.attempts.push_back(std::move(one));
   }
-  for (const std::string& named : evidence.attempts.value_or(std::set<std::string>{})) {
+  std::set<std::string> others = evidence.attempts.value_or(std::set<std::string>{});
+  for (const CertifiedBy& own : out.attempts) others.erase(own.uuid);
+  for (const std::string& named : others) {
     sql::Statement other(connection,
                          "SELECT 1 FROM attempt a JOIN certificate c ON c.uuid = ? WHERE a.uuid = ? AND"
                          " a.trainee_id <> c.trainee_id");
@@ -146,6 +148,21 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
   if (!own.bind(certificate.uuid).step() || own.integer(0) == 0)
     out.in_question = "it is not signed with the station's key, or was changed since";
   if (out.in_question.empty()) out.in_question = words_of(doubts, out.cited, out.attempts.size());
+  return out;
+}
+
+std::set<std::string> certificates_beyond_doubt(const Database& database) {
+  std::set<std::string> out;
+  sql::Statement rows(
+      database.connection(),
+      "SELECT c.uuid FROM certificate c WHERE json_valid(c.evidence) AND json_type(c.evidence, '$.attempts') = 'array'"
+      " AND NOT EXISTS (SELECT 1 FROM json_each(c.evidence, '$.attempts') n JOIN attempt a ON a.uuid = n.value"
+      " WHERE EXISTS (SELECT 1 FROM verdict_override v WHERE v.attempt_id = a.id) OR NOT EXISTS (SELECT 1 FROM attempt"
+      " own INDEXED BY attempt_by_trainee WHERE own.trainee_id = c.trainee_id AND own.exercise_id = c.exercise_id"
+      " AND own.level = c.level AND own.id = a.id))"
+      " AND NOT EXISTS (SELECT 1 FROM attempt a WHERE a.uuid = json_extract(c.evidence, '$.attempt') AND"
+      " a.row_hash <> json_extract(c.evidence, '$.row_hash')) AND row_holds('certificate', c.id)");
+  while (rows.step()) out.insert(rows.text(0));
   return out;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct CertificateStanding {
 
 /// @param certificate as it is stored. Of one that was withdrawn the standing is told likewise.
 CertificateStanding standing_of(const Database& database, const Certificate& certificate);
+
+/// UUIDs of certificates of which standing_of() could not say a word: signed, of whose attempts all are the person's
+/// and nobody has decided on one, and the one that they cite is as it was. For lists, which cannot ask of thousands one
+/// by one; of any other certificate standing_of() tells.
+std::set<std::string> certificates_beyond_doubt(const Database& database);
 
 /// UUIDs of the attempts that count on the curve of this one, oldest first: what a certificate given now stands on.
 std::vector<std::string> attempts_of_curve(const Database& database, const std::string& attempt_uuid);

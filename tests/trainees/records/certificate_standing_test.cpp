@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::certificate_standing_test {
@@ -40,7 +41,13 @@ class Standing : public testing::Test {
                            {"by", decision.printed}});
     return certify({{"overrides", decisions}, {"attempts", attempts_of_curve(database_, attempts_[2].uuid)}});
   }
-  std::string doubt(const Certificate& certificate) { return standing_of(database_, certificate).in_question; }
+  std::string doubt(const Certificate& certificate) {
+    std::string why = standing_of(database_, certificate).in_question;
+    if (!why.empty()) {
+      EXPECT_FALSE(certificates_beyond_doubt(database_).contains(certificate.uuid)) << why;
+    }
+    return why;
+  }
 
   int board_ = 0;
   Database database_{":memory:"};
@@ -52,6 +59,7 @@ class Standing : public testing::Test {
 TEST_F(Standing, OfOneThatSomebodyWroteIntoTheFileIsInQuestion) {
   Certificate given = certify_with();
   ASSERT_EQ(doubt(given), "");
+  EXPECT_TRUE(certificates_beyond_doubt(database_).contains(given.uuid));
   given.uuid = "0190aaaa-0000-7000-8000-000000000001";
   sql::execute(
       database_.connection(),
@@ -62,6 +70,17 @@ TEST_F(Standing, OfOneThatSomebodyWroteIntoTheFileIsInQuestion) {
        " certificate")
           .c_str());
   EXPECT_NE(doubt(given).find("not signed with the station's key"), std::string::npos);
+}
+
+TEST_F(Standing, OnAnotherPersonsAttemptIsInQuestion) {
+  const Certificate given = certify_with();
+  TraineeStore(database_).ensure_trainee("T-2");
+  std::vector<std::string> triggers;
+  sql::Statement names(database_.connection(), "SELECT name FROM sqlite_schema WHERE type = 'trigger'");
+  while (names.step()) triggers.push_back(names.text(0));
+  for (const std::string& name : triggers) sql::execute(database_.connection(), ("DROP TRIGGER " + name).c_str());
+  sql::execute(database_.connection(), "UPDATE attempt SET trainee_id = 2 WHERE id = 1");
+  EXPECT_NE(doubt(given).find("is another person's"), std::string::npos) << doubt(given);
 }
 
 TEST_F(Standing, IsThatOfTheAttemptsOnItsCurve) {

@@ -51,12 +51,14 @@ std::map<std::int64_t, Person> people(sqlite3* connection) {
 
 std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database) {
   std::map<CertifiedSkill, HeldCertificate> out;
+  const std::set<std::string> stand = certificates_beyond_doubt(database);
   sql::Statement trainee(database.connection(), "SELECT trainee_id FROM certificate WHERE uuid = ?");
   for (const Certificate& one : AssessmentStore(database).certificates_of("")) {
     if (!one.revoked_utc.empty() || !trainee.bind(one.uuid).step()) continue;
     const CertifiedSkill skill{trainee.integer(0), one.exercise_id, one.level};
     trainee.run();
-    if (!out.contains(skill)) out[skill] = {one.utc, standing_of(database, one).in_question};
+    if (out.contains(skill)) continue;
+    out[skill] = {one.utc, stand.contains(one.uuid) ? "" : standing_of(database, one).in_question};
   }
   return out;
 }

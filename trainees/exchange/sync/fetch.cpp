@@ -1,13 +1,13 @@
 #include "trainees/exchange/sync/fetch.h"
 
 #include <algorithm>
-#include <regex>
 
 #include "haptics/input_error.h"
 #include "trainees/exchange/sync/central_rights.h"
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
+#include "trainees/records/attempt_identity.h"
 #include "trainees/records/erasure.h"
 
 namespace trocar::sync {
@@ -61,10 +61,8 @@ bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row
 /// Its UUID puts a row in its place among all of its kind (next_row_uuid): one that is none, or of a time far ahead,
 /// would be the last word. @param latest of latest_time(): that of the centre, for the clock here may be wrong.
 void require_name_of_row(const std::string& uuid, const std::string& latest) {
-  static const std::regex kName("([0-9a-f]{8})-([0-9a-f]{4})-7[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
-  std::smatch parts;
-  if (!std::regex_match(uuid, parts, kName)) throw InputError("its UUID is none of trocar's; left out");
-  if (parts[1].str() + parts[2].str() > latest)
+  if (!is_time_ordered(uuid)) throw InputError("its UUID is none of trocar's; left out");
+  if (uuid.substr(0, 8) + uuid.substr(9, 4) > latest)
     throw InputError("its UUID is of a time more than a year ahead of the centre's clock; left out");
 }
 
