@@ -93,6 +93,7 @@ std::vector<std::string> check_by_recordings(Database& database, const Recording
     lock.unlock();
     std::string problem;
     try {
+      if (stored.cut_off && kept_here(stored) && !recording_begins(stored.recording_path)) return;
       const auto recording = kept_recording(stored);
       if (!recording) return;
       problem = graded_problem(stored, *recording);

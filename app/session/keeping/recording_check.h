@@ -28,7 +28,8 @@ struct RecordingCheck {
 };
 
 /// Of every attempt of this database whose recording is in its place with the bytes that it was kept with; of others
-/// AttemptStore::check_recordings() tells. @returns a line each.
+/// AttemptStore::check_recordings() tells. One that was cut off before its recording began has none to look at.
+/// @returns a line each.
 std::vector<std::string> check_by_recordings(Database& database, const RecordingCheck& options = {});
 
 }  // namespace trocar

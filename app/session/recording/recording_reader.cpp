@@ -235,6 +235,16 @@ class Parser {
   Recording recording_;
 };
 
+std::string bytes_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such recording");
+  if (std::filesystem::file_size(file, error) > kLargestRecording)
+    throw InputError(file.string() + ": is larger than any recording");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string() + ": no such recording");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 std::uint64_t most_decoded(std::uint64_t file_bytes) {
@@ -250,15 +260,10 @@ std::uint64_t most_decoded(std::uint64_t file_bytes) {
 }
 
 Recording read_recording(const std::filesystem::path& file, Reading reading) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file.string() + ": no such recording");
-  if (std::filesystem::file_size(file, error) > kLargestRecording)
-    throw InputError(file.string() + ": is larger than any recording");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": no such recording");
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  return parse_recording(bytes, file.string(), reading);
+  return parse_recording(bytes_of(file), file.string(), reading);
 }
+
+bool recording_begins(const std::filesystem::path& file) { return chunk_fits(bytes_of(file), kRecordingPrefixSize); }
 
 Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading,
                           std::optional<std::uint64_t> most) {

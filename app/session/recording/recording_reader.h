@@ -48,4 +48,8 @@ Recording read_recording(const std::filesystem::path& file, Reading reading = Re
 Recording parse_recording(std::string_view bytes, const std::string& name, Reading reading = Reading::kStrict,
                           std::optional<std::uint64_t> most = std::nullopt);
 
+/// False of a file that ends before its header does: its program was killed as it began, and it says nothing.
+/// @throws as read_recording().
+bool recording_begins(const std::filesystem::path& file);
+
 }  // namespace trocar

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include "app/session/keeping/attempt_keeping.h"
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "tests/app/session/playback/playback_samples.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -71,6 +76,23 @@ TEST_F(RecordingsChecked, AnHonestRecordIsSound) {
   attempted("T-expert", "expert");
   attempted("T-novice", "novice");
   EXPECT_EQ(said(), "");
+}
+
+TEST_F(RecordingsChecked, AProgramThatWasKilledBeforeItsRecordingBeganLeavesNoProblem) {
+  std::ifstream in(attempted("T-expert", "expert").recording_path, std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  for (const std::size_t bytes : {0, 0, 5, 12, 20, 30}) {
+    const AttemptId id = store_.begin_attempt(attempt_start(short_scene("novice"), "T-novice"));
+    std::ofstream(id.recording, std::ios::binary) << whole.substr(0, bytes);
+    AttemptResult result;
+    result.grade.status = AttemptStatus::kAborted;
+    result.cut_off = true;
+    result.recording_path = id.recording;
+    result.recording_sha256 = digest::of_file(id.recording);
+    store_.finish_attempt(id, result);
+  }
+  EXPECT_EQ(said(), "");
+  EXPECT_TRUE(store_.check_recordings().empty()) << store_.check_recordings().front();
 }
 
 TEST_F(RecordingsChecked, AnExpertsRecordingInAnothersPlaceShowsEvenWhenTheRecordWasMadeToFit) {
