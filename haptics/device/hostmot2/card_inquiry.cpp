@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <random>
 
 #include "haptics/input_error.h"
 
@@ -35,6 +36,9 @@ void add_counter(lbp16::Datagram& to, std::uint32_t counter) {
 void add_counter_read(lbp16::Datagram& to) {
   to.add(Command{.space = Space::kTimers, .size = Size::k16, .count = 2, .address = kHostCounterAt});
 }
+
+CardInquiry::CardInquiry(const std::string& card, double wait_s)
+    : name_("card " + card), wait_s_(wait_s), link_(card), claim_(link_, name_), counter_(std::random_device()()) {}
 
 /// One register, before the loop begins.
 std::uint32_t CardInquiry::ask(std::uint16_t address) {

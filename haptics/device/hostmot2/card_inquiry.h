@@ -1,6 +1,7 @@
 // Questions to a Mesa card one register at a time, before a loop begins: who it is, and what stands in it.
 //
-// Reads only, but for the host's own counter that goes along with every question. Thread: one at a time.
+// Reads only, but for the host's own counter that goes along with every question: it begins anywhere, so that two
+// programs' are told apart. One program of a computer has a card at a time. Thread: one at a time.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,9 @@ inline constexpr int kMostStale = 8;  ///< answers to older questions that are d
 
 class CardInquiry {
  public:
-  /// @param card address, with or without a port. @param wait_s for each answer, three times. @throws as UdpLink.
-  CardInquiry(const std::string& card, double wait_s) : name_("card " + card), wait_s_(wait_s), link_(card) {}
+  /// @param card address, with or without a port. @param wait_s for each answer, three times. @throws as UdpLink;
+  /// EnvironmentError: another program has the card, or another part of this one.
+  CardInquiry(const std::string& card, double wait_s);
 
   /// One register. @throws EnvironmentError: no answer.
   std::uint32_t ask(std::uint16_t address);
@@ -35,7 +37,8 @@ class CardInquiry {
   std::string name_;
   double wait_s_;
   UdpLink link_;
-  std::uint32_t counter_ = 0;
+  PeerClaim claim_;
+  std::uint32_t counter_;
   std::uint64_t asked_ = 0;
 };
 

@@ -269,8 +269,8 @@ bool FakeHostmot2::sync() {
   if (now.elapsed_periods == 0) return false;
   const double divider = (memory_[kEncoderModule.at(EncoderRegister::kStampDivider) / 4] & 0xFFFF) + 2.0;
   const double rate = kClockLowHz / divider;
-  const auto stamp =
-      static_cast<std::uint16_t>(static_cast<std::uint64_t>(std::floor(device_.time_s() * rate)) & 0xFFFF);
+  const auto stamp = static_cast<std::uint16_t>(
+      static_cast<std::uint64_t>(std::floor((device_.time_s() + troubles_.shift_s) * rate)) & 0xFFFF);
   if (troubles_.frozen) {
     now.counts = latched_.counts;
     latched_ = now;
@@ -278,7 +278,8 @@ bool FakeHostmot2::sync() {
   }
   for (std::size_t i = 0; i < kChannels; ++i)
     if (now.counts[i] != latched_.counts[i])
-      stamps_[i] = static_cast<std::uint16_t>(stamp - static_cast<std::uint16_t>(now.edge_age_us[i] * 1e-6 * rate));
+      stamps_[i] = static_cast<std::uint16_t>(
+          stamp - static_cast<std::uint16_t>((now.edge_age_us[i] * 1e-6 + troubles_.shift_s) * rate));
   stamp_ = stamp;
   latched_ = now;
   return true;

@@ -32,6 +32,7 @@ struct CardTroubles {
   double cuts = 0;                                ///< share of the answers that end early
   double babbles = 0;         ///< share of the answers with random bytes before them, as a datagram of their own
   bool silent = false;        ///< answers nothing
+  double shift_s = 0;         ///< its time is so far ahead of the device's: it is asked when it is, not at a SYNC
   bool frozen = false;        ///< time and counters stand still, everything else goes on
   bool lies = false;          ///< answers in time, of the right length, to the right question, and makes the data up
   bool no_kicks = false;      ///< the watchdog does not see that it is kicked

@@ -20,6 +20,9 @@ const Hostmot2Options& checked(const Hostmot2Options& o) {
 }
 
 constexpr std::uint16_t kLongAgo = 65535;
+constexpr double kStampGrain = 0.01;  // of a period, that two readings of the card's time may be off
+constexpr std::uint32_t kOwnCounters =
+    1 << 16;                 // so many back a counter is still one of ours, late or lost as it may be
 constexpr int kGivenUp = 6;  // answers lost in a row: from then on no longer than a period is waited for the next
 
 /// Divider of a clock that comes nearest to a rate: clock / (divider + 2).
@@ -112,6 +115,7 @@ void Hostmot2Daq::lay_out_exchange() {
     q.add(Command{.count = static_cast<std::uint8_t>(count), .address = address});
     answer_bytes_ += 4 * static_cast<std::size_t>(count);
   };
+  add_counter_read(q);
   add_counter(q, 0);
   counter_at_ = q.size() - 4;
   q.add(Command{.write = true, .count = kChannels, .address = pwm_.at(PwmRegister::kValue)});
@@ -120,7 +124,7 @@ void Hostmot2Daq::lay_out_exchange() {
   enable_at_ = q.write32(pwm_.at(PwmRegister::kEnable), 0);
   kick_at_ = q.write32(watchdog_.at(WatchdogRegister::kKick), 0);
   add_counter_read(q);
-  answer_bytes_ = 4;
+  answer_bytes_ = 8;
   read32(encoder_.at(EncoderRegister::kCount), kChannels);
   read32(encoder_.at(EncoderRegister::kStampNow), 1);
   read32(encoder_.at(EncoderRegister::kControl), kChannels);
@@ -149,7 +153,7 @@ bool Hostmot2Daq::exchange() noexcept {
     if (!card_.link().receive(answer_, wait_share / options_.rate_hz)) return false;
     if (answer_.size() != answer_bytes_)
       ++link_.malformed;
-    else if (answer_.value32(0) != card_.counter())
+    else if (answer_.value32(4) != card_.counter())
       ++link_.stale;
     else
       return true;
@@ -163,35 +167,45 @@ DaqSample Hostmot2Daq::read() noexcept {
     return last_ = sample_of_answer();
   }
   ++link_.lost;
-  last_.elapsed_periods = ++lost_in_a_row_ <= options_.lost_in_a_row && read_once_ ? 1 : 0;
+  const bool stands_in = ++lost_in_a_row_ <= options_.lost_in_a_row && read_once_;
+  last_.elapsed_periods = stands_in ? 1 : 0;
+  if (stands_in) late_ -= 1;
   return last_;
+}
+
+/// @param passed periods of the card's time since the last answer, above 0.
+std::uint32_t Hostmot2Daq::periods_in(double passed) noexcept {
+  if (!read_once_) return 1;
+  late_ += passed;
+  const double periods = std::max(1.0, std::floor(late_ + kStampGrain));
+  late_ = std::max(0.0, late_ - periods);
+  return static_cast<std::uint32_t>(periods);
 }
 
 DaqSample Hostmot2Daq::sample_of_answer() noexcept {
   DaqSample out = last_;
   out.digital_in = 0;
   out.valid = (1U << kChannels) - 1;
-  std::size_t at = 4;
+  std::size_t at = 8;
   const auto stamp = static_cast<std::uint16_t>(answer_.value32(at + 4 * kChannels));
   const auto passed = static_cast<std::uint16_t>(stamp - stamp_);
-  const double to_us = 1e6 / stamp_hz_, passed_us = passed * to_us;
-  out.elapsed_periods =
-      read_once_ ? static_cast<std::uint32_t>(std::max(0.0, std::round(passed_us * 1e-6 * options_.rate_hz))) : 1;
-  if (out.elapsed_periods == 0) {  // its time stands still: whatever it counts is no news
+  if (read_once_ && passed == 0) {  // its time stands still: whatever it counts is no news
     last_.elapsed_periods = 0;
     return last_;
   }
+  const double to_us = 1e6 / stamp_hz_, passed_us = passed * to_us;
+  out.elapsed_periods = periods_in(passed_us * 1e-6 * options_.rate_hz);
+  const double late_us = 1e6 * late_ / options_.rate_hz;
   for (std::size_t i = 0; i < kChannels; ++i, at += 4) {
     const std::uint32_t word = answer_.value32(at);
     const auto raw = static_cast<std::uint16_t>(word);
     const auto step = static_cast<std::int16_t>(static_cast<std::uint16_t>(raw - raw_[i]));
     const auto edge = static_cast<std::uint16_t>(stamp - static_cast<std::uint16_t>(word >> 16));
-    const double age_us = step != 0    ? std::max(1.0, std::ceil(edge * to_us))
-                          : read_once_ ? out.edge_age_us[i] + passed_us
-                                       : kLongAgo;
+    double& age_us = edge_age_us_[i];
+    age_us = step != 0 ? edge * to_us : read_once_ ? age_us + passed_us : kLongAgo;
     out.counts[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(out.counts[i]) +
                                               static_cast<std::uint32_t>(read_once_ ? step : std::int16_t{0}));
-    out.edge_age_us[i] = static_cast<std::uint16_t>(std::min<double>(age_us, kLongAgo));
+    out.edge_age_us[i] = static_cast<std::uint16_t>(std::clamp<double>(std::ceil(age_us - late_us), 1, kLongAgo));
     raw_[i] = raw;
   }
   stamp_ = stamp;
@@ -204,6 +218,11 @@ DaqSample Hostmot2Daq::sample_of_answer() noexcept {
     lbp16::Datagram clear;
     clear.write32(encoder_.at(EncoderRegister::kControl, static_cast<int>(i)), kFifteenClocks | kQuadratureError);
     send(clear);
+  }
+  if (const std::uint32_t before = answer_.value32(0);  // 0: it lost its power, which the watchdog tells
+      before != 0 && card_.counter() - before - 1 >= kOwnCounters) {
+    ++link_.foreign;
+    for (int i = 0; i < kChannels; ++i) out.digital_in |= static_cast<std::uint32_t>(kDacMismatch) << i;
   }
   // A card that lost its power has its watchdog off, as a new one has, and its pins are inputs likewise.
   const bool bitten = (answer_.value32(at) & kBitten) || (answer_.value32(at + 4) & kWatchdogOff);

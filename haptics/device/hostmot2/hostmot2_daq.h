@@ -4,14 +4,17 @@
 // One exchange a period. read() sends one datagram: the codes written last, the enables, the watchdog's kick where
 // write() was called since, then the reads; and waits for the answer. So codes act at the next SYNC, as the seam has
 // it, and the encoders are latched within one datagram, about a microsecond apart. The card's own time stamps say how
-// many periods went by and how long before the latch each counter last moved. A host counter goes along, is kept by the
-// card and comes back: an answer to an older question is dropped and counted. Where no answer comes in time the last
-// counts are given once more, as one period, up to lost_in_a_row; then nothing is news (elapsed_periods 0) and the loop
-// faults. arm(false) goes out at once. A watchdog that has bitten has turned every pin into an input: it stays so until
-// disarmed, when the pins are set up again; docs/real_hardware.md says how the inhibits must be wired for that to be
-// safe. A quadrature error marks its channel as not valid in that read and is cleared. Thread: the haptic task's. No
-// call allocates, locks or throws; read() waits wait_share of a period, and as long again for each answer that it
-// drops, kMostStale at most.
+// many periods went by and how long before that each counter last moved. The card knows no period: it latches when it
+// is asked. A period's SYNC is taken to be the earliest moment at which the loop asks, and a question that comes late,
+// but before the next SYNC, is that period's: what follows it at once is the next one's. A host counter goes along, is
+// kept by the card and comes back: an answer to an older question is dropped and counted. What the card had kept before
+// must be this program's too: else another one drives the card as well, and every DAC counts as mismatched. Where no
+// answer comes in time the last counts are given once more, as one period, up to lost_in_a_row, and the next answer's
+// periods are that one fewer; then nothing is news (elapsed_periods 0) and the loop faults. arm(false) goes out at
+// once. A watchdog that has bitten has turned every pin into an input: it stays so until disarmed, when the pins are
+// set up again; docs/real_hardware.md says how the inhibits must be wired for that to be safe. A quadrature error marks
+// its channel as not valid in that read and is cleared. Thread: the haptic task's. No call allocates, locks or throws;
+// read() waits wait_share of a period, and as long again for each answer that it drops, kMostStale at most.
 #pragma once
 
 #include <array>
@@ -41,6 +44,7 @@ struct Hostmot2Options {
 struct Hostmot2Link {
   std::uint64_t sent = 0;  ///< datagrams, of setting up too
   std::uint64_t lost = 0, stale = 0, malformed = 0, bites = 0;
+  std::uint64_t foreign = 0;  ///< exchanges before which another program had asked the card
 };
 
 class Hostmot2Daq final : public DataAcquisition {
@@ -71,6 +75,7 @@ class Hostmot2Daq final : public DataAcquisition {
   void add_pins(lbp16::Datagram& to) const;
   bool exchange() noexcept;
   DaqSample sample_of_answer() noexcept;
+  std::uint32_t periods_in(double passed) noexcept;
   const hostmot2::Module& module(const hostmot2::Need& need) const;
 
   Hostmot2Options options_;
@@ -87,7 +92,10 @@ class Hostmot2Daq final : public DataAcquisition {
   bool armed_ = false, fed_ = false, bitten_ = false, read_once_ = false;
   int lost_in_a_row_ = 0;
   std::array<std::uint16_t, kChannels> raw_{};
+  std::array<double, kChannels> edge_age_us_{};  ///< before the last latch
   std::uint16_t stamp_ = 0;
+  double late_ =
+      0;  ///< periods from the last period's SYNC to its latch; less one for each that a lost answer stood for
   DaqSample last_;
   Hostmot2Link link_;
 };

@@ -4,11 +4,14 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -74,6 +77,15 @@ std::uint16_t UdpLink::port() const noexcept {
   return ::getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size) == 0 ? ntohs(own.sin_port) : 0;
 }
 
+std::string UdpLink::peer() const {
+  sockaddr_in to = {};
+  socklen_t size = sizeof to;
+  std::array<char, INET_ADDRSTRLEN> text{};
+  if (::getpeername(socket_, reinterpret_cast<sockaddr*>(&to), &size) != 0) return "";
+  ::inet_ntop(AF_INET, &to.sin_addr, text.data(), text.size());
+  return std::string(text.data()) + ":" + std::to_string(ntohs(to.sin_port));
+}
+
 bool UdpLink::send(const lbp16::Datagram& datagram) noexcept {
   sockaddr_in peer = {};
   peer.sin_family = AF_INET;
@@ -108,5 +120,22 @@ bool UdpLink::receive(lbp16::Datagram& into, double wait_s) noexcept {
   }
   return true;
 }
+
+PeerClaim::PeerClaim(const UdpLink& link, const std::string& name)
+    : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  // A name that is no file (it begins with a zero byte): it goes with the program.
+  sockaddr_un claimed = {.sun_family = AF_UNIX, .sun_path = {}};
+  const std::string text = "trocar card " + link.peer();
+  text.copy(&claimed.sun_path[1], sizeof claimed.sun_path - 1);
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
+  if (socket_ >= 0 && ::bind(socket_, reinterpret_cast<const sockaddr*>(&claimed), size) == 0) return;
+  const bool taken = errno == EADDRINUSE;
+  const std::string why = std::strerror(errno);
+  if (socket_ >= 0) ::close(socket_);
+  throw EnvironmentError(name +
+                         (taken ? ": another program has it; end that one first" : ": cannot be claimed: " + why));
+}
+
+PeerClaim::~PeerClaim() { ::close(socket_); }
 
 }  // namespace trocar

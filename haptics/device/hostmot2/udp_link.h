@@ -24,6 +24,7 @@ class UdpLink {
   UdpLink& operator=(UdpLink&&) = delete;
 
   std::uint16_t port() const noexcept;  ///< own
+  std::string peer() const;             ///< "192.168.1.121:27181"
   bool send(const lbp16::Datagram& datagram) noexcept;
   /// The next datagram that fits. @param wait_s 0: what is there already. @return false: none came, or the peer is
   /// gone.
@@ -35,6 +36,21 @@ class UdpLink {
   bool connected_ = true;
   std::uint32_t peer_address_ = 0;  ///< of the loopback's, network order
   std::uint16_t peer_port_ = 0;
+};
+
+/// While it lives no other program of this computer has one on the same peer, however either ends.
+class PeerClaim {
+ public:
+  /// @param name of the peer in words. @throws EnvironmentError: there is one already.
+  PeerClaim(const UdpLink& link, const std::string& name);
+  ~PeerClaim();
+  PeerClaim(const PeerClaim&) = delete;
+  PeerClaim(PeerClaim&&) = delete;
+  PeerClaim& operator=(const PeerClaim&) = delete;
+  PeerClaim& operator=(PeerClaim&&) = delete;
+
+ private:
+  int socket_ = -1;
 };
 
 }  // namespace trocar
