@@ -1,5 +1,6 @@
 #include "trainees/records/attempt_rows.h"
 
+#include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
 #include "trainees/integrity/attempt_chain.h"
 #include "trainees/records/attempt_identity.h"
@@ -84,7 +85,8 @@ void insert_device_rows(sqlite3* connection, std::int64_t attempt, const RunRepo
 
 /// UUID of another attempt that has the very recording, "" when none; asked of what no program graded.
 std::string also_recorded_by(sqlite3* connection, std::int64_t attempt, const AttemptResult& result) {
-  if (result.grade.score || result.recording_sha256.empty()) return "";
+  static const std::string kNothing = digest::of_bytes("");  // its program was killed before the first byte
+  if (result.grade.score || result.recording_sha256.empty() || result.recording_sha256 == kNothing) return "";
   sql::Statement other(connection, "SELECT uuid FROM attempt WHERE recording_sha256 = ? AND id <> ?");
   return other.bind(result.recording_sha256).bind(attempt).step() ? other.text(0) : "";
 }

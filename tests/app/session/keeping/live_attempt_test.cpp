@@ -38,6 +38,10 @@ TEST_F(LiveAttemptTest, BeginsWithWhatIsKnownBefore) {
   EXPECT_EQ(told().limit_n, scene_.setup.exercise.hard_force_n);
   EXPECT_NE(told().setup.find("organ " + scene_.organ.name), std::string::npos) << told().setup;
   EXPECT_FALSE(told().force_n);
+  EXPECT_EQ(told().device, "simulated");
+  Scene held = scene_;
+  held.setup.backend = "hostmot2";
+  EXPECT_EQ(live_beginning(held, "test", "T-7", "a-1").device, "hostmot2");
 }
 
 TEST_F(LiveAttemptTest, CountsBecomeEventsOnceAndThePeakStays) {
