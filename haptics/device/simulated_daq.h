@@ -86,6 +86,8 @@ class SimulatedDaq final : public DataAcquisition, public SimulatedWorld {
   /// The operator carries the arm back into its jig within kReturnS, where it is clamped again.
   void return_to_jig() noexcept { lead_arm(JointVector::Zero(), kReturnS); }
   void lead_arm(const JointVector& from_jig, double seconds) noexcept override;
+  /// For boards whose driver sets their watchdog. @param seconds more than nothing; infinite: off.
+  void set_watchdog(double seconds) noexcept { config_.watchdog_s = seconds; }
   /// Codes that act on the DACs now, and counts that the encoders have missed: for tests and studies only.
   const DacFrame& codes_in_force() const noexcept { return in_force_; }
   std::int64_t counts_lost(int channel) const noexcept { return encoders_.lost(channel); }

@@ -1,6 +1,8 @@
 #include "haptics/device/mc4000/emulated_mc4000.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace trocar {
@@ -9,9 +11,7 @@ SimulatedDaqConfig EmulatedMc4000::device_config(SimulatedDaqConfig config) {
   const Mc4000Map map;
   config.dac_bits = map.dac_bits;
   config.edge_times = false;
-  // Whole counts of the board's watchdog.
-  const double count_s = map.watchdog_divider / config.rate_hz;
-  config.watchdog_s = count_s * std::ceil(config.watchdog_s / count_s - 1e-9);
+  config.watchdog_s = std::numeric_limits<double>::infinity();  // until the gate of one is opened
   return config;
 }
 
@@ -42,7 +42,11 @@ void EmulatedMc4000::write(int number, std::uint32_t at, std::uint32_t value) no
   }
   if (at == map_.digital_in_b) return;
   word(number, at) = value;
-  if (at == map_.watchdog) fed_ = true;
+  if (at == map_.watchdog || at == map_.gate) {
+    bites_at_[static_cast<std::size_t>(number)] =
+        periods() + std::int64_t{word(number, map_.watchdog)} * map_.watchdog_divider;
+    set_device_watchdog(periods());
+  }
   if (at == map_.digital_out_a && number == 0) device_.arm((value & map_.out_amplifiers) != 0);
   if (const int i = channel_at(number, at, map_.decoder_mode, map_.decoder_stride);
       i >= 0 && (value & map_.mode_preload)) {
@@ -71,22 +75,17 @@ std::uint32_t EmulatedMc4000::read(int number, std::uint32_t at) noexcept {
 }
 
 std::uint32_t EmulatedMc4000::sync() noexcept {
-  if (troubles_.gone[0]) return 1;  // the host's clock goes on
+  if (troubles_.gone[0]) return 0;
   if (!(word(0, map_.gate) & map_.gate_pit) || !(word(0, map_.sync_control) & map_.sync_internal_pit)) return 0;
   const double pit_hz = map_.pit_clock_hz / word(0, map_.pit);
   if (std::abs(pit_hz / rate_hz_ - 1) > 1e-3) return 0;  // the device is stepped at its own rate only
-  if (std::exchange(fed_, false)) {
-    DacFrame frame;
-    for (int i = 0; i < kChannels; ++i) {
-      const int shift = 32 - map_.dac_bits, number = kMc4000Axes[i].board;
-      const std::uint32_t code =
-          word(number, map_.dac + static_cast<std::uint32_t>(kMc4000Axes[i].axis) * map_.dac_stride);
-      if (!troubles_.gone[number])
-        frame.codes[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(code << shift) >> shift;
-    }
-    device_.write(frame);
-    held_ = frame;
-  }
+  const std::int64_t now = periods() + 1;
+  for (int number = 0; number < 2; ++number)
+    if (watched(number) && now >= bites_at_[static_cast<std::size_t>(number)])
+      word(number, map_.interrupt_flags) |= map_.flag_watchdog;
+  set_device_watchdog(now);
+  held_ = codes_due();
+  device_.write(held_);
   now_ = device_.read();
   if (now_.digital_in & kWatchdogFired) held_ = {};
   for (int i = 0; i < kChannels; ++i)
@@ -107,9 +106,34 @@ std::uint32_t EmulatedMc4000::sync() noexcept {
   }
   word(0, map_.interrupt_flags) |= map_.flag_sync;
   if (heard) word(1, map_.interrupt_flags) |= map_.flag_sync;
-  if ((now_.digital_in & kWatchdogFired) && (word(0, map_.gate) & map_.gate_watchdog))
-    for (int number = 0; number < 2; ++number) word(number, map_.interrupt_flags) |= map_.flag_watchdog;
+  for (int number = 0; number < 2; ++number)
+    if ((now_.digital_in & kWatchdogFired) && watched(number)) word(number, map_.interrupt_flags) |= map_.flag_watchdog;
   return now_.elapsed_periods;
+}
+
+/// That have passed in the device, whoever asked for them.
+std::int64_t EmulatedMc4000::periods() const noexcept { return std::llround(device_.time_s() * rate_hz_); }
+
+void EmulatedMc4000::set_device_watchdog(std::int64_t now) noexcept {
+  double first_s = std::numeric_limits<double>::infinity();
+  for (int number = 0; number < 2; ++number) {
+    const std::int64_t left = bites_at_[static_cast<std::size_t>(number)] - now;
+    if (watched(number) && left > 0) first_s = std::min(first_s, static_cast<double>(left) / rate_hz_);
+  }
+  device_.set_watchdog(first_s);
+}
+
+/// What the converters take over at a SYNC.
+DacFrame EmulatedMc4000::codes_due() const noexcept {
+  DacFrame frame;
+  for (int i = 0; i < kChannels; ++i) {
+    const int shift = 32 - map_.dac_bits;
+    const Registers& board = memory_[static_cast<std::size_t>(kMc4000Axes[i].board)];
+    if (board[map_.interrupt_flags] & map_.flag_watchdog) continue;
+    const std::uint32_t code = board[map_.dac + static_cast<std::uint32_t>(kMc4000Axes[i].axis) * map_.dac_stride];
+    frame.codes[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(code << shift) >> shift;
+  }
+  return frame;
 }
 
 std::uint32_t EmulatedMc4000::inputs(int number) const noexcept {

@@ -1,9 +1,12 @@
 // Two MC4000 boards that are not there: their registers as the driver sees them, and behind them the simulated device
 // with its hand.
 //
-// SYNC lets one period of the device pass, then latches the decoders of each board that hears it, takes the converters
-// over and sets the flags. The watchdog counts while its gate is open; at zero it zeroes the converters, which stay so
-// until its flag is cleared. Troubles are the boards' own. Thread: the haptic task's.
+// SYNC takes the converters over, lets one period of the device pass, then latches the decoders of each board that
+// hears it and sets the flags. Each board's watchdog counts down from its MCWD, one in watchdog_divider periods, while
+// its gate is open; a write to MCWD or to the gate begins anew. At zero its flag is set and its own converters are zero
+// until the flag is cleared. While SYNCs pass that nobody asks for (SimulatedWorld::miss_sync()) the device's watchdog,
+// set to the first that is due, stands for theirs: it zeroes both boards' converters, until disarmed. Troubles are the
+// boards' own. Thread: the haptic task's.
 #pragma once
 
 #include <array>
@@ -37,7 +40,7 @@ class EmulatedMc4000 {
     Board(EmulatedMc4000& pair, int number) : pair_(pair), number_(number) {}
     std::uint32_t read(std::uint32_t word) noexcept override { return pair_.read(number_, word); }
     void write(std::uint32_t word, std::uint32_t value) noexcept override { pair_.write(number_, word, value); }
-    std::uint32_t await_sync() noexcept override { return number_ == 0 ? pair_.sync() : 0; }
+    std::uint32_t await_sync(std::uint32_t, std::uint32_t) noexcept override { return number_ == 0 ? pair_.sync() : 0; }
 
    private:
     EmulatedMc4000& pair_;
@@ -49,6 +52,12 @@ class EmulatedMc4000 {
   std::uint32_t read(int number, std::uint32_t word) noexcept;
   void write(int number, std::uint32_t word, std::uint32_t value) noexcept;
   std::uint32_t sync() noexcept;
+  std::int64_t periods() const noexcept;
+  void set_device_watchdog(std::int64_t now) noexcept;
+  DacFrame codes_due() const noexcept;
+  bool watched(int number) const noexcept {
+    return (memory_[static_cast<std::size_t>(number)][map_.gate] & map_.gate_watchdog) != 0;
+  }
   int channel_at(int number, std::uint32_t word, std::uint32_t base, std::uint32_t stride) const noexcept;
   std::uint32_t inputs(int number) const noexcept;
   std::uint32_t& word(int number, std::uint32_t at) noexcept { return memory_[static_cast<std::size_t>(number)][at]; }
@@ -63,8 +72,8 @@ class EmulatedMc4000 {
   std::array<std::int32_t, kChannels> zero_{},
       latched_{};  ///< of the decoders: at their preload, and as they were latched
   DaqSample now_;
-  DacFrame held_;  ///< by the converters, since the last SYNC
-  bool fed_ = false;
+  DacFrame held_;                           ///< by the converters, since the last SYNC
+  std::array<std::int64_t, 2> bites_at_{};  ///< periods of the device, by its watchdog; where its gate is open
 };
 
 }  // namespace trocar

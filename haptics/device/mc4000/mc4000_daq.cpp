@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
 
-constexpr int kSyncTries = 50;  // periods in which a first SYNC must come
+constexpr int kSyncTries = 50;  // waits in which a first SYNC must come
 constexpr int kFirstDrivePin = 8;
 constexpr std::uint32_t kNobody = ~0U;  // what a bus reads where no board answers
 
@@ -48,14 +49,19 @@ Mc4000Daq::Mc4000Daq(RegisterBus& board0, RegisterBus& board1, const Mc4000Optio
       options_(checked(options)),
       watchdog_counts_(static_cast<std::uint32_t>(
           std::max(1.0, std::ceil(options.watchdog_s * options.rate_hz / options.map.watchdog_divider - 1e-9)))) {
-  for (int number = 0; number < 2; ++number) set_up(*boards_[static_cast<std::size_t>(number)], number);
   const Mc4000Map& map = options_.map;
+  for (RegisterBus* board : boards_) {
+    board->write(map.digital_out_a, 0);
+    board->write(map.gate, 0);
+  }
+  for (const int number : {1, 0}) set_up(*boards_[static_cast<std::size_t>(number)], number);  // 0 drives 1
   for (int number = 0; number < 2; ++number) {
     RegisterBus& board = *boards_[static_cast<std::size_t>(number)];
     bool seen = false;
     for (int n = 0; n < kSyncTries && !seen; ++n) {
-      boards_[0]->await_sync();
+      boards_[0]->await_sync(map.interrupt_flags, map.flag_sync);
       seen = (board.read(map.interrupt_flags) & map.flag_sync) != 0;
+      clear_sync();
     }
     if (!seen)
       throw EnvironmentError("MC4000 board " + std::to_string(number) + ": no SYNC comes" +
@@ -67,8 +73,6 @@ Mc4000Daq::Mc4000Daq(RegisterBus& board0, RegisterBus& board1, const Mc4000Optio
 void Mc4000Daq::set_up(RegisterBus& board, int number) {
   const Mc4000Map& map = options_.map;
   const std::string name = "MC4000 board " + std::to_string(number);
-  board.write(map.digital_out_a, 0);
-  board.write(map.gate, 0);
   const auto load = static_cast<std::uint32_t>(std::lround(map.pit_clock_hz / options_.rate_hz));
   board.write(map.pit, load);
   if (board.read(map.pit) != load)
@@ -87,16 +91,19 @@ void Mc4000Daq::set_up(RegisterBus& board, int number) {
   board.write(map.interrupt_flags, map.flag_sync | map.flag_watchdog);
   if (board.read(map.interrupt_flags) & (map.flag_sync | map.flag_watchdog))
     throw EnvironmentError(name + ": its interrupt flags do not clear");
-  board.write(map.interrupt_enable, number == 0 ? map.flag_sync : 0);
+  board.write(map.interrupt_enable, number == 0 && board.hears_interrupt() ? map.flag_sync : 0);
   const std::uint32_t gate = map.gate_watchdog | (number == 0 ? map.gate_pit : 0);
   board.write(map.gate, gate);
   if (board.read(map.gate) != gate) throw EnvironmentError(name + ": its watchdog cannot be switched on");
 }
 
 Mc4000Daq::~Mc4000Daq() {
+  const Mc4000Map& map = options_.map;
   write({});
   arm(false);
-  for (RegisterBus* board : boards_) board->write(options_.map.gate, 0);
+  clear_sync();
+  boards_[0]->await_sync(map.interrupt_flags, map.flag_sync);
+  boards_[0]->write(map.interrupt_enable, 0);
 }
 
 std::uint32_t Mc4000Daq::decoder(int channel, std::uint32_t base) const noexcept {
@@ -113,23 +120,23 @@ std::int32_t Mc4000Daq::extended(std::uint32_t count) const noexcept {
 
 bool Mc4000Daq::await_sync() noexcept {
   if (!boards_[0]->tells_sync()) return false;
-  awaited_ = boards_[0]->await_sync();
+  awaited_ = boards_[0]->await_sync(options_.map.interrupt_flags, options_.map.flag_sync);
   return awaited_ > 0;
 }
 
 DaqSample Mc4000Daq::read() noexcept {
   const Mc4000Map& map = options_.map;
-  const std::uint32_t periods = awaited_ ? *awaited_ : boards_[0]->await_sync();
+  const std::uint32_t periods = awaited_ ? *awaited_ : boards_[0]->await_sync(map.interrupt_flags, map.flag_sync);
   awaited_.reset();
   const std::array<std::uint32_t, 2> flags{boards_[0]->read(map.interrupt_flags),
                                            boards_[1]->read(map.interrupt_flags)};
-  for (std::size_t b = 0; b < 2; ++b) boards_[b]->write(map.interrupt_flags, flags[b] & map.flag_sync);
+  clear_sync();
   if (periods == 0 || !(flags[0] & map.flag_sync) || flags[0] == kNobody) {
     last_.elapsed_periods = 0;
     return last_;
   }
   DaqSample out = last_;
-  out.elapsed_periods = periods;
+  out.elapsed_periods = std::exchange(read_once_, true) ? periods : 1;
   out.valid = 0;
   out.digital_in = 0;
   for (int i = 0; i < kChannels; ++i) {
@@ -141,7 +148,8 @@ DaqSample Mc4000Daq::read() noexcept {
     const std::uint32_t seen = flags[static_cast<std::size_t>(kMc4000Axes[i].board)];
     if (seen != kNobody && (seen & map.flag_sync) && !(board.read(decoder(i, map.decoder_mode)) & map.mode_error))
       out.valid = static_cast<std::uint8_t>(out.valid | 1U << i);
-    if (armed_ && seen != kNobody && sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
+    if (armed_ && !overtaken_ && seen != kNobody &&
+        sign_extended(board.read(converter(i)), map.dac_bits) != written_.codes[c])
       out.digital_in |= kDacMismatch << i;
   }
   const bool fired = ((flags[0] | (flags[1] == kNobody ? 0 : flags[1])) & map.flag_watchdog) != 0;
@@ -161,6 +169,14 @@ void Mc4000Daq::write(const DacFrame& frame) noexcept {
     board_of(i).write(converter(i), dac_word(frame.codes[static_cast<std::size_t>(i)], map.dac_bits));
   for (RegisterBus* board : boards_) board->write(map.watchdog, watchdog_counts_);
   written_ = frame;
+  overtaken_ = (boards_[0]->read(map.interrupt_flags) & map.flag_sync) != 0;
+}
+
+/// Board 1 first: a SYNC between the two then costs a period, which the clock counts, and not board 1's flag of a SYNC
+/// that board 0 tells of.
+void Mc4000Daq::clear_sync() noexcept {
+  for (RegisterBus* board : {boards_[1], boards_[0]})
+    board->write(options_.map.interrupt_flags, options_.map.flag_sync);
 }
 
 void Mc4000Daq::clear_watchdogs() noexcept {

@@ -4,7 +4,8 @@
 // set, converters at zero, watchdog ENABLED (the thesis had switched it off) and kicked by write(). A SYNC latches all
 // decoders and takes over all converters. Each read() compares what the converters hold with what was written
 // (kDacMismatch) and looks whether each board saw its SYNC: channels of one that did not are not valid.
-// Thread: the haptic task's. No call allocates, locks or throws.
+// Boards in this computer pace the loop: await_sync(), or a read() that nobody awaited, returns at their SYNC; where
+// none comes within 1.5 periods nothing is news. Thread: the haptic task's. No call allocates, locks or throws.
 #pragma once
 
 #include <array>
@@ -33,7 +34,8 @@ class Mc4000Daq final : public DataAcquisition {
   /// @throws std::invalid_argument: a rate or time that no board has; EnvironmentError: a register does not keep what
   /// is written, no SYNC comes, a watchdog will not run.
   Mc4000Daq(RegisterBus& board0, RegisterBus& board1, const Mc4000Options& options);
-  /// Converters at zero, amplifiers off, timers stopped.
+  /// Amplifiers off, converters at zero: waits for the SYNC that takes it over, two periods at most. Timer and
+  /// watchdogs run on, so that these zero them where no SYNC comes.
   ~Mc4000Daq() override;
   Mc4000Daq(const Mc4000Daq&) = delete;
   Mc4000Daq(Mc4000Daq&&) = delete;
@@ -58,6 +60,7 @@ class Mc4000Daq final : public DataAcquisition {
   std::uint32_t decoder(int channel, std::uint32_t base) const noexcept;
   std::uint32_t converter(int channel) const noexcept;
   void set_up(RegisterBus& board, int number);
+  void clear_sync() noexcept;
   void clear_watchdogs() noexcept;
   std::int32_t extended(std::uint32_t count) const noexcept;
 
@@ -65,7 +68,8 @@ class Mc4000Daq final : public DataAcquisition {
   Mc4000Options options_;
   std::uint32_t watchdog_counts_;
   DacFrame written_;
-  bool armed_ = false;
+  bool armed_ = false, read_once_ = false;
+  bool overtaken_ = false;                ///< by a SYNC, before all of `written_` was in the registers
   std::optional<std::uint32_t> awaited_;  ///< periods that await_sync() saw and read() has not yet told
   DaqSample last_;
 };

@@ -1,13 +1,10 @@
 // The driver of the thesis' boards against boards that are not there: their set-up, SYNC, watchdog, troubles.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <memory>
 
 #include "haptics/device/mc4000/emulated_mc4000.h"
 #include "haptics/device/mc4000/mc4000_daq.h"
-#include "haptics/device/mc4000/pci_bus.h"
 #include "haptics/input_error.h"
 #include "tests/support/daq_conformance.h"
 
@@ -63,11 +60,12 @@ class TellingBoard final : public RegisterBus {
   explicit TellingBoard(RegisterBus& board) : board_(board) {}
   std::uint32_t read(std::uint32_t word) noexcept override { return board_.read(word); }
   void write(std::uint32_t word, std::uint32_t value) noexcept override { board_.write(word, value); }
-  std::uint32_t await_sync() noexcept override {
+  std::uint32_t await_sync(std::uint32_t flags, std::uint32_t flag) noexcept override {
     ++waits_;
-    return silent_ ? 0 : board_.await_sync();
+    return silent_ ? 0 : board_.await_sync(flags, flag);
   }
   bool tells_sync() const noexcept override { return true; }
+  bool hears_interrupt() const noexcept override { return true; }
   int waits_ = 0;
   bool silent_ = false;
 
@@ -78,6 +76,7 @@ class TellingBoard final : public RegisterBus {
 TEST_F(Mc4000, ABoardThatTellsOfItsSyncIsWaitedForOnceAPeriod) {
   TellingBoard first(pair_.board(0));
   Mc4000Daq daq(first, pair_.board(1), {});
+  EXPECT_EQ(first.read(map_.interrupt_enable), map_.flag_sync);
   first.waits_ = 0;
   for (int k = 1; k <= 5; ++k) {
     EXPECT_TRUE(daq.await_sync());
@@ -95,6 +94,7 @@ TEST_F(Mc4000, ABoardWithoutAnInterruptLeavesTheTimeToTheCaller) {
   const auto daq = driver();
   EXPECT_FALSE(daq->await_sync());
   EXPECT_EQ(daq->read().elapsed_periods, 1U);
+  EXPECT_EQ(pair_.board(0).read(map_.interrupt_enable), 0U) << "nobody would answer it";
 }
 
 TEST_F(Mc4000, CountsAreThoseOfTheDeviceItself) {
@@ -162,6 +162,99 @@ TEST_F(Mc4000, WithoutWritesTheWatchdogZeroesUntilDisarmed) {
   EXPECT_EQ(code_in_force(0), 500);
 }
 
+/// Both boards armed with a code in force, and then SYNCs in which the driver says nothing.
+class Mc4000Watchdog : public Mc4000 {
+ protected:
+  static constexpr std::int32_t kCode = 500;
+  Mc4000Watchdog() {
+    for (int k = 0; k < 30; ++k) period(*daq_, true, kCode);
+  }
+  /// @return SYNCs until the converters of a board are zero; `most` where they do not get there.
+  template <class BeforeEach>
+  int zero_after(int number, int most, BeforeEach&& before_each) {
+    const int channel = number == 0 ? 0 : 4;
+    for (int k = 1; k <= most; ++k) {
+      before_each();
+      sync();
+      if (code_in_force(channel) == 0) return k;
+    }
+    return most;
+  }
+  void sync() { pair_.board(0).await_sync(map_.interrupt_flags, map_.flag_sync); }
+  void kick(int number, std::uint32_t counts) { pair_.board(number).write(map_.watchdog, counts); }
+  bool flagged(int number) { return (pair_.board(number).read(map_.interrupt_flags) & map_.flag_watchdog) != 0; }
+
+  std::unique_ptr<Mc4000Daq> daq_ = driver();
+};
+
+TEST_F(Mc4000Watchdog, ClosedGatesNeverBite) {
+  pair_.board(0).write(map_.gate, map_.gate_pit);
+  pair_.board(1).write(map_.gate, 0);
+  for (const int number : {0, 1}) {
+    EXPECT_EQ(zero_after(number, 200, [] {}), 200);
+    EXPECT_FALSE(flagged(number));
+  }
+  for (int n = 0; n < 200; ++n) device_.miss_sync();
+  EXPECT_EQ(code_in_force(0), kCode) << "nor while nobody asks";
+}
+
+TEST_F(Mc4000Watchdog, TheCountWrittenIsTheTime) {
+  for (const std::uint32_t counts : {1U, 2U, 5U}) {
+    for (const int number : {0, 1}) kick(number, counts);
+    EXPECT_EQ(zero_after(0, 100, [] {}), 8 * static_cast<int>(counts));
+    EXPECT_EQ(code_in_force(4), 0) << "at the same SYNC";
+    period(*daq_, false);
+    for (int k = 0; k < 5; ++k) period(*daq_, true, kCode);
+    EXPECT_EQ(code_in_force(0), kCode);
+  }
+  for (const int number : {0, 1}) kick(number, 2);
+  for (int n = 0; n < 15; ++n) device_.miss_sync();
+  EXPECT_EQ(code_in_force(0), kCode);
+  device_.miss_sync();
+  EXPECT_EQ(code_in_force(0), 0) << "it bites while the program is late, not afterwards";
+  EXPECT_TRUE(daq_->read().digital_in & kWatchdogFired);
+}
+
+TEST_F(Mc4000Watchdog, EachBoardHasItsOwn) {
+  for (const int fed : {0, 1}) {
+    EXPECT_EQ(zero_after(1 - fed, 100, [&] { kick(fed, 2); }), 16);
+    EXPECT_TRUE(flagged(1 - fed));
+    EXPECT_FALSE(flagged(fed));
+    EXPECT_EQ(code_in_force(fed == 0 ? 0 : 4), kCode) << "the other board's converters go on";
+    EXPECT_TRUE(daq_->read().digital_in & kWatchdogFired) << "either is told of";
+    period(*daq_, false);
+    for (int k = 0; k < 5; ++k) period(*daq_, true, kCode);
+  }
+}
+
+TEST_F(Mc4000Watchdog, ItHoldsZeroUntilItsFlagIsCleared) {
+  EXPECT_EQ(zero_after(0, 100, [] {}), 16);
+  const auto go_on = [&] {
+    for (int k = 0; k < 20; ++k) {
+      for (const int number : {0, 1}) kick(number, 2);
+      sync();
+    }
+  };
+  go_on();
+  EXPECT_EQ(code_in_force(0), 0) << "a kick is no way out";
+  pair_.board(0).write(map_.interrupt_flags, map_.flag_watchdog);
+  go_on();
+  EXPECT_EQ(code_in_force(0), kCode) << "its converters are its registers again";
+  EXPECT_EQ(code_in_force(4), 0) << "board 1 still says that it has bitten";
+}
+
+TEST_F(Mc4000Watchdog, ClosedWhileArmedTheConvertersAreZeroAndGuarded) {
+  EXPECT_EQ(pair_.board(0).read(map_.dac), static_cast<std::uint32_t>(kCode));
+  daq_.reset();
+  for (const int number : {0, 1}) {
+    EXPECT_EQ(pair_.board(number).read(map_.dac), 0U) << "board " << number;
+    EXPECT_TRUE(pair_.board(number).read(map_.gate) & map_.gate_watchdog) << "board " << number;
+    EXPECT_EQ(pair_.board(number).read(map_.interrupt_enable), 0U);
+  }
+  EXPECT_FALSE(pair_.board(0).read(map_.digital_out_a) & map_.out_amplifiers);
+  EXPECT_EQ(driver()->read().elapsed_periods, 1U) << "and they can be opened anew";
+}
+
 TEST_F(Mc4000, ACableThatIsOutAndABoardThatIsGoneAreSeenAtOnce) {
   const auto daq = driver();
   for (int k = 0; k < 5; ++k) EXPECT_EQ(period(*daq, true).valid, 0x7F);
@@ -191,41 +284,6 @@ TEST_F(Mc4000, BoardsThatCannotBeSetUpAreRefusedWithTheReason) {
   refusal({.gone = {true, false}}, "board 0: its timer does not keep what is written");
   refusal({.gone = {false, true}}, "board 1: its timer does not keep what is written");
   refusal({.sync_cable_out = true}, "board 1: no SYNC comes from board 0; is their cable plugged?");
-}
-
-/// Memory of a board as sysfs gives it: here a file.
-TEST(PciBus, MapsAFileOfRegistersAndSaysWhyNot) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "trocar_pci_bus_test";
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / "resource0";
-  std::ofstream(file).write(std::string(4096, '\0').data(), 4096);
-  {
-    PciBus bus(folder.string(), 1000);
-    bus.write(0x08, 0x12345678);
-    EXPECT_EQ(bus.read(0x08), 0x12345678U);
-    EXPECT_EQ(bus.read(5000), ~0U) << "beyond the end nobody answers";
-    bus.write(5000, 1);
-    EXPECT_EQ(PciBus(folder.string(), 1e-6).await_sync(), 0U) << "eleven days have not passed on the host's clock";
-    PciBus fast(folder.string(), 1e9);
-    EXPECT_GT(fast.await_sync(), 0U) << "a nanosecond has";
-    EXPECT_EQ(Mc4000Daq::dry_look(bus, {}).size(), 19U);
-    EXPECT_NE(Mc4000Daq::dry_look(bus, {})[7].find("MC_DAC0        0x08  0x12345678"), std::string::npos);
-    EXPECT_THROW(Mc4000Daq(bus, bus, {}), EnvironmentError) << "a file sends no SYNC";
-  }
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(4 * 0x08);
-  std::uint32_t word = 1;
-  in.read(reinterpret_cast<char*>(&word), 4);
-  EXPECT_EQ(word, 0U) << "converters at zero, at the word's place";
-  std::ofstream(file, std::ios::trunc) << "short";
-  EXPECT_THROW(PciBus(folder.string(), 1000), EnvironmentError);
-  std::filesystem::remove_all(folder);
-  try {
-    const PciBus bus(folder.string(), 1000);
-    FAIL();
-  } catch (const EnvironmentError& error) {
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
-  }
 }
 
 }  // namespace
