@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -85,7 +86,7 @@ struct Rig {
   /// Why it ended, if not by the exercise, and what the loop remembers when its torque went off on the way.
   void tell_stop(const TickRecord& record, SessionOutcome& out) const {
     const bool reached_run = director.status().run_time_s > 0;
-    out.device.reason = end_words(out.status, out.device, record.stylus.loop, reached_run);
+    out.device.reason = end_words(out.status, out.device, record.stylus.loop, reached_run, record.stylus.homing);
     bool stopped = false;
     for (const SafetyTransition& t : loop.safety_log().transitions()) {
       const double t_s = static_cast<double>(t.period) / scene.loop.daq.rate_hz;
@@ -164,6 +165,9 @@ class MarkTask final : public Task {
 WrenchSensorConfig sensor_of(const AttemptSetup& setup) {
   return setup.plant ? setup.plant->sensor.value_or(WrenchSensorConfig{}) : WrenchSensorConfig{};
 }
+std::optional<SensorMount> mount_of(const AttemptSetup& setup) {
+  return setup.force_sensor.empty() ? std::nullopt : device_model(setup.device).sensor;
+}
 std::uint64_t seed_of(const AttemptSetup& setup) { return static_cast<std::uint64_t>(setup.seed); }
 
 /// A whole attempt: back-end and rig, the simulated person and the sensor where the back-end has them, and what keeps
@@ -178,7 +182,9 @@ struct Attempt {
             sensor_of(scene.setup).fixture_kg * sensor_of(scene.setup).gravity),
         recorder(*rings, scene.loop.daq.rate_hz, writer) {
     if (backend.world) hand.emplace(scene, rig.haptic, *rig.hand_frames, std::move(person), *backend.world);
-    if (backend.sensor) sensor.emplace(*forces, *backend.sensor, scene.loop.daq.rate_hz);
+    std::optional<RealSensorPlace> real;
+    if (backend.stream) real = {scene.loop.device.sensor, scene.loop.map.X_TW.R};
+    if (backend.sensor) sensor.emplace(*forces, *backend.sensor, scene.loop.daq.rate_hz, real);
   }
 
   /// What runs in the haptic thread, in this order.
@@ -190,8 +196,11 @@ struct Attempt {
   }
   SessionOutcome outcome() {
     SessionOutcome out = rig.outcome(backend.daq->capabilities().name);
-    if (sensor) out.device.force_sensor = force_sensor_json(*sensor);
     const AttemptSetup& setup = rig.scene.setup;
+    std::optional<RealSensorLine> line;
+    if (backend.stream) line = {setup.force_sensor, backend.stream->link()};
+    if (sensor) out.device.force_sensor = force_sensor_json(*sensor, line);
+    if (sensor && line) out.notes = force_sensor_notes(*sensor, *line);
     if (backend.world && backend.daq->capabilities().motors)
       out.device.plant = plant_json(setup.plant.get(), setup.seed, setup.device);
     return out;
@@ -251,7 +260,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   if (hooks.paced) hooks.paced(executor);
   SessionOutcome out = attempt.outcome();
   out.device.realtime = realtime_json(executor, attempt.recorder.lost(), witness.seen());
-  out.notes = realtime_notes(executor, attempt.recorder.lost());
+  for (std::string& note : realtime_notes(executor, attempt.recorder.lost())) out.notes.push_back(std::move(note));
   return out;
 }
 
@@ -279,12 +288,20 @@ SimulatedDaqConfig simulated_device(const AttemptSetup& setup) {
   return config;
 }
 
+void require_scripted(const AttemptSetup& setup) {
+  if (!backend_capabilities(setup.backend, setup.rate_hz).motors)
+    throw InputError("--backend " + setup.backend + ": a person's mouse, keys or pad; a script needs a device");
+  if (is_real_device(setup.backend))
+    throw InputError("--backend " + setup.backend + ": a person holds that arm, no script moves it: trocar practice");
+}
+
 Backend setup_backend(const AttemptSetup& setup) {
   return make_backend(setup.backend, {.simulated = simulated_device(setup),
                                       .sensor = sensor_of(setup).force,
                                       .sensor_seed = seed_of(setup) ^ kSensorSeed,
                                       .card = setup.card,
-                                      .force_sensor = setup.force_sensor});
+                                      .force_sensor = setup.force_sensor,
+                                      .sensor_mount = mount_of(setup)});
 }
 
 SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const SessionHooks& hooks,
@@ -300,15 +317,10 @@ SessionOutcome run_session(const Scene& scene, const AssetRoots& assets, const S
   if (judges_pull(scene.setup.exercise) && !scene.setup.exercise.sheets.empty() && scene.sheets.empty())
     throw InputError("exercise '" + scene.setup.exercise.id + "' is about a sheet that '" + scene.organ.name +
                      "' has not: choose another organ");
-  if (!hooks.hand && !scene.loop.daq.motors) {
-    throw InputError("--backend " + scene.setup.backend + ": a person's mouse, keys or pad; a script needs a device");
-  }
+  if (!hooks.hand) require_scripted(scene.setup);
   auto hand =
       hooks.hand ? hooks.hand() : make_hand(scene.setup.hand, seed_of(scene.setup), assets.hands, scene.setup.attempt);
   const auto attempt = std::make_unique<Attempt>(scene, std::move(hand), writer, timing, hooks.keyframes);
-  if (!attempt->backend.world && !hooks.hand)
-    throw InputError("--backend " + scene.setup.backend +
-                     ": a person holds that arm, no script moves it: trocar practice");
   if (timing == Timing::kLockstep && !attempt->backend.can.pace) {
     throw InputError("--backend " + scene.setup.backend + ": runs by its own clock; add --realtime");
   }

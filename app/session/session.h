@@ -102,6 +102,9 @@ std::pair<SessionOutcome, Recording> record_session(const Scene& scene, const As
 /// The same loop fed with the recorded device input. @param scene built from the recording's own setup.
 SessionOutcome replay_session(const Scene& scene, const Recording& recording, const SessionObserver& observe = {});
 
+/// Before anything of a run is set up. @throws InputError: a script cannot move what the setup names, only a person
+/// can.
+void require_scripted(const AttemptSetup& setup);
 /// Configuration of the simulated back-end of a setup.
 SimulatedDaqConfig simulated_device(const AttemptSetup& setup);
 /// The back-end that a setup names. @throws InputError when there is none of that name.

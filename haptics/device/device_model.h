@@ -74,6 +74,22 @@ struct PinchHardware {
   double jaw_length_m = 0.020;    ///< from hinge to pads [assumed]: opening = 2 length sin(angle / 2)
 };
 
+/// How a force/torque sensor sits on the output link (the stylus, S), and what hangs on it. F: the sensor's own axes.
+struct SensorMount {
+  std::optional<Vec3> rpy_rad;        ///< from S to F by roll, pitch, yaw about fixed axes; none: not known
+  bool body_on_device = false;        ///< else the hand holds the body and the device acts on the tool side
+  double fixture_kg = 0;              ///< that hangs on the tool side
+  Vec3 fixture_com_F = Vec3::Zero();  ///< its centre of mass, m
+  std::optional<double> counts_per_n, counts_per_nm;  ///< none: usual for that kind of sensor
+
+  /// From F to S. @pre rpy_rad
+  Mat3 R_SF() const {
+    using Turn = Eigen::AngleAxisd;
+    return (Turn(rpy_rad->z(), Vec3::UnitZ()) * Turn(rpy_rad->y(), Vec3::UnitY()) * Turn(rpy_rad->x(), Vec3::UnitX()))
+        .toRotationMatrix();
+  }
+};
+
 struct DeviceModel {
   std::array<Transmission, kChannels> transmission = nominal_transmissions();
   std::array<PlatformWeight, 3> platform_weights{{{3.21, {0, -0.0125, 0.0095}},   // wrist motors [T table 4.1]
@@ -88,6 +104,7 @@ struct DeviceModel {
   double pinch_home_m = 0.020;                         ///< slide position in the home jig [assumed]
   PinchHardware pinch;
   HomingModel homing;
+  std::optional<SensorMount> sensor;  ///< none: nothing is known of how it sits
 
   /// Share of coulomb and viscous that surely is there: what identification may miss, else what 1 of 200 joints of this
   /// kind does not reach (log-normal, 20 %).

@@ -1,6 +1,7 @@
 // A force sensor at the stylus as its task sees it: one sample a call, at the sensor's own rate and lag.
 //
-// Force only, N; a simulated sensor keeps the axes of what it is given. Thread: the sensor task's.
+// A simulated sensor gives force only, N, in the axes of what it is given; a real one force and moment in its own axes.
+// Thread: the sensor task's.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +19,10 @@ struct ForceSensorConfig {
 };
 
 struct ForceSample {
-  std::uint64_t number = 0;   ///< counts from 1
-  Vec3 force = Vec3::Zero();  ///< N, as it was lag_s ago
-  bool valid = false;         ///< the delay line is full
+  std::uint64_t number = 0;       ///< counts from 1
+  Vec3 force = Vec3::Zero();      ///< N, as it was lag_s ago
+  bool valid = false;             ///< the delay line is full; a real one vouches for it
+  Vec3 moment_nm = Vec3::Zero();  ///< of a real one, about its origin
 };
 
 class ForceSensor {

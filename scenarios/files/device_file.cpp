@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "haptics/input_error.h"
+#include "scenarios/files/file_units.h"
 #include "scenarios/files/strict_toml.h"
 
 namespace trocar {
@@ -97,13 +99,45 @@ void read_pinch(StrictTable table, DeviceModel& model) {
   table.finish();
 }
 
+const std::vector<std::string> kSensorBodies{"hand", "device"};
+
+void write_mount(std::ostream& out, const SensorMount& s) {
+  out << "\n[sensor]\n";
+  if (s.rpy_rad) out << "rpy_deg = " << array(Vec3(*s.rpy_rad / file_units::kDegrees)) << '\n';
+  out << "body = \"" << kSensorBodies[s.body_on_device ? 1 : 0] << "\"\n";
+  if (s.fixture_kg > 0)
+    out << "fixture_kg = " << digits(s.fixture_kg)
+        << "\nfixture_com_mm = " << array(Vec3(s.fixture_com_F / file_units::kMilli)) << '\n';
+  if (s.counts_per_n) out << "counts_per_n = " << digits(*s.counts_per_n) << '\n';
+  if (s.counts_per_nm) out << "counts_per_nm = " << digits(*s.counts_per_nm) << '\n';
+}
+
+SensorMount read_mount(StrictTable table) {
+  SensorMount s;
+  table.allow("rpy_deg");
+  if (table.has("rpy_deg")) s.rpy_rad = table.vector("rpy_deg", -180, 180) * file_units::kDegrees;
+  s.body_on_device = table.choice_or("body", kSensorBodies, kSensorBodies[0]) == kSensorBodies[1];
+  s.fixture_kg = table.number_or("fixture_kg", 0, 5, 0);
+  if (s.fixture_kg > 0 && !s.rpy_rad)
+    table.fail("fixture_kg", "its weight cannot be taken away while 'rpy_deg' does not say how the sensor sits");
+  s.fixture_com_F = table.vector_or("fixture_com_mm", -500, 500, Vec3::Zero()) * file_units::kMilli;
+  if (table.has("fixture_com_mm") && s.fixture_kg == 0)
+    table.fail("fixture_com_mm", "without 'fixture_kg' there is no fixture");
+  for (const auto& [key, value] : {std::pair{"counts_per_n", &s.counts_per_n}, {"counts_per_nm", &s.counts_per_nm}}) {
+    table.allow(key);
+    if (table.has(key)) *value = table.number(key, 1, 1e9);
+  }
+  table.finish();
+  return s;
+}
+
 }  // namespace
 
 std::string device_toml(const DeviceModel& model, const std::string& comment, const std::string& plant) {
   const HomingModel plain;
   const bool homing = model.homing.method != plain.method || model.homing.see_dark;
   const bool pinch = model.pinch.design != PinchDesign::kDirect;
-  if (!model.identified_gravity && !homing && !pinch)
+  if (!model.identified_gravity && !homing && !pinch && !model.sensor)
     throw InputError("device file: the model has not been identified");
   std::ostringstream out;
   std::istringstream lines(comment);
@@ -111,6 +145,7 @@ std::string device_toml(const DeviceModel& model, const std::string& comment, co
   if (!plant.empty()) out << "\nplant = \"" << plant << "\"\n";
   if (homing) write_homing(out, model.homing);
   if (pinch) write_pinch(out, model);
+  if (model.sensor) write_mount(out, *model.sensor);
   if (!model.identified_gravity) return out.str();
   const IdentifiedGravity& g = *model.identified_gravity;
   out << "\n[gravity]\nplatform_n_m = " << array(g.platform) << "\nlink2_n_m = " << array(g.link2)
@@ -131,10 +166,12 @@ DeviceModel parse_device(const std::string& text, const std::string& file, std::
   const std::string identified = root.text_or("plant", "");
   if (plant) *plant = identified;
   DeviceModel model;
-  for (const char* table : {"homing", "pinch"}) root.allow(table);
+  for (const char* table : {"homing", "pinch", "sensor"}) root.allow(table);
   if (root.has("homing")) read_homing(root.table("homing"), model.homing);
   if (root.has("pinch")) read_pinch(root.table("pinch"), model);
-  const bool apart = root.has("homing") || root.has("pinch");  // such a file need not have been identified
+  if (root.has("sensor")) model.sensor = read_mount(root.table("sensor"));
+  const bool apart =
+      root.has("homing") || root.has("pinch") || root.has("sensor");  // such a file need not have been identified
   if (apart && !root.has("gravity") && !root.has("joint")) {
     root.finish();
     return model;

@@ -71,6 +71,7 @@ std::string joined(const std::vector<std::string>& words) {
 std::string read_text_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
+  if (in && in.peek() == std::ifstream::traits_type::eof() && !in.bad()) throw InputError(path + ": is empty");
   if (!in || !(text << in.rdbuf())) throw InputError(path + ": cannot be read");
   return text.str();
 }

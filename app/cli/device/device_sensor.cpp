@@ -1,8 +1,10 @@
 // `trocar device sensor`: what a real force sensor says now, and what its line loses.
 #include <chrono>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +13,7 @@
 #include "app/cli/command.h"
 #include "app/session/interrupt.h"
 #include "haptics/device/backends/make_backend.h"
+#include "scenarios/files/device_file.h"
 
 namespace trocar {
 namespace {
@@ -22,11 +25,13 @@ struct SensorCommand {
   std::string sensor = {};
   double seconds = 5;
   bool bias = false, json = false;
+  std::filesystem::path device = {};
 };
 
 int device_sensor(const SensorCommand& options, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before the sensor's thread
-  const std::unique_ptr<WrenchStream> sensor = make_force_sensor(options.sensor);
+  const std::optional<SensorMount> mount = options.device.empty() ? std::nullopt : load_device(options.device).sensor;
+  const std::unique_ptr<WrenchStream> sensor = make_force_sensor(options.sensor, mount);
   if (options.bias) sensor->bias();
   int heard = 0;
   Vec3 mean = Vec3::Zero();
@@ -50,11 +55,11 @@ int device_sensor(const SensorCommand& options, std::ostream& out, std::ostream&
                                   {"out_of_order", link.out_of_order},
                                   {"malformed", link.malformed},
                                   {"unsound", link.unsound},
-                                  {"begun", link.begun}}
+                                  {"begun", link.begun},
+                                  {"taken_away", link.taken_away}}
                .dump(2)
         << '\n';
-  err << "trocar: " << link.records << " records, " << link.lost << " lost, " << link.malformed << " broken, "
-      << link.unsound << " saturated or in error; asked to begin " << link.begun << " times\n";
+  err << "trocar: " << link_words(link) << '\n';
   return heard > 0 ? 0 : kSilent;
 }
 
@@ -65,8 +70,11 @@ void add_device_sensor(CLI::App& parent, CommandAction& chosen) {
   CLI::App* sensor =
       add_command(parent, "sensor", "What a real force sensor says now; 4 when it says nothing that holds", chosen,
                   [given] { return device_sensor(*given, std::cout, std::cerr); });
-  sensor->add_option("sensor", given->sensor, "net-ft:ADDRESS or serial:/dev/ttyUSB0")->required();
+  sensor->add_option("sensor", given->sensor, "net-ft:ADDRESS, serial:/dev/ttyUSB0 or serial-binary:/dev/ttyUSB0")
+      ->required();
   sensor->add_option("--seconds", given->seconds, "How long")->capture_default_str()->check(CLI::Range(0.1, 1e6));
+  sensor->add_option("--device", given->device, "Device file whose [sensor] says how many counts a newton has")
+      ->check(file_name());
   sensor->add_flag("--bias", given->bias, "Take the force at the beginning as zero");
   sensor->add_flag("--json", given->json, "As JSON");
 }

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <map>
 
+#include "scenarios/director/homing_words.h"
+
 namespace trocar {
 namespace {
 
@@ -49,6 +51,13 @@ std::string number(double value, const char* format) {
   return text;
 }
 
+/// What homing waited for. Empty: it had not begun.
+std::string unhomed_words(LoopState loop, const HomingReport& homing) {
+  if (loop != LoopState::kUnhomed || homing.step == HomingStep::kNone) return "";
+  const HomingWords words = homing_words(loop, homing);
+  return std::string(". ") + words.title + ". " + words.hint;
+}
+
 }  // namespace
 
 std::string fault_words(const RunReport& device) {
@@ -60,10 +69,12 @@ std::string fault_words(const RunReport& device) {
   if (found == table().end()) return out;
   std::string what = found->second.what;
   if (const auto at = what.find('%'); at != std::string::npos) what.replace(at, 1, number(device.fault_value, "%.6g"));
-  return out + ": " + what + ". " + found->second.advice + "; then reset, home the device in its jig and start again.";
+  return out + ": " + what + ". " + found->second.advice +
+         "; then put the stylus into its jig and start again: the device homes anew.";
 }
 
-std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run) {
+std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run,
+                      const HomingReport& homing) {
   switch (status) {
     case AttemptStatus::kFault:
       return "device fault " + fault_words(device);
@@ -73,7 +84,7 @@ std::string end_words(AttemptStatus status, const RunReport& device, LoopState l
     case AttemptStatus::kAborted:
       if (reached_run) return "the exercise did not end within its time";
       return std::string("the exercise never began: the device was ") + loop_state_name(loop) +
-             (loop == LoopState::kHomed ? ", waiting for the deadman to be closed" : "");
+             (loop == LoopState::kHomed ? ", waiting for the deadman to be closed" : unhomed_words(loop, homing));
     default:
       return "";
   }

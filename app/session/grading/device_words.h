@@ -12,7 +12,8 @@ namespace trocar {
 std::string fault_words(const RunReport& device);
 
 /// Why an attempt that was not graded ended, in a sentence. @param loop state of the device at the end.
-/// @param reached_run whether the clock of the exercise had begun.
-std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run);
+/// @param reached_run whether the clock of the exercise had begun. @param homing as it stood at the end.
+std::string end_words(AttemptStatus status, const RunReport& device, LoopState loop, bool reached_run,
+                      const HomingReport& homing = {});
 
 }  // namespace trocar

@@ -11,6 +11,8 @@
 namespace trocar {
 namespace {
 
+constexpr double kLossyShare = 0.01;  // of a sensor's records: worth a word [chosen]
+
 using RunReportJson = nlohmann::ordered_json;
 
 RunReportJson distribution(const DurationCounts& counts) {
@@ -111,15 +113,47 @@ std::string pacing_fault(const std::string& realtime, const std::vector<Event>& 
   return pauses > kMostPauses ? "it was paused " + std::to_string(pauses) + " times while its clock ran" : "";
 }
 
-std::string force_sensor_json(const ForceSensorTask& sensor) {
-  return RunReportJson{{"rate_hz", sensor.config().rate_hz},
-                       {"lag_s", sensor.config().lag_s},
-                       {"samples", sensor.measured().count()},
-                       {"measured_rms_n", sensor.measured().rms()},
-                       {"residual_samples", sensor.residual().count()},
-                       {"residual_rms_n", sensor.residual().rms()},
-                       {"residual_max_n", sensor.residual().largest()}}
-      .dump();
+std::string force_sensor_json(const ForceSensorTask& sensor, const std::optional<RealSensorLine>& line) {
+  RunReportJson json = {{"rate_hz", sensor.config().rate_hz},
+                        {"lag_s", sensor.config().lag_s},
+                        {"samples", sensor.samples()},
+                        {"measured_rms_n", sensor.measured().rms()},
+                        {"residual_samples", sensor.residual().count()},
+                        {"residual_rms_n", sensor.residual().rms()},
+                        {"residual_max_n", sensor.residual().largest()}};
+  if (!line) return json.dump();
+  const std::optional<Wrench> zero = sensor.zero();
+  const auto three = [](const Vec3& v) { return RunReportJson{v.x(), v.y(), v.z()}; };
+  json["sensor"] = line->words;
+  json["axes"] = sensor.compares() ? "theatre" : "sensor";
+  json["measured_rms_nm"] = sensor.measured_moment().rms();
+  json["zero"] = {{"samples", sensor.zero_samples()},
+                  {"force_n", zero ? three(zero->force) : RunReportJson(nullptr)},
+                  {"moment_nm", zero ? three(zero->moment) : RunReportJson(nullptr)}};
+  const WrenchLink& link = line->link;
+  json["link"] = {{"records", link.records},      {"lost", link.lost},       {"out_of_order", link.out_of_order},
+                  {"malformed", link.malformed},  {"unsound", link.unsound}, {"begun", link.begun},
+                  {"taken_away", link.taken_away}};
+  if (sensor.measured().count() == 0) json["measured_rms_n"] = json["measured_rms_nm"] = nullptr;
+  if (sensor.residual().count() == 0) json["residual_rms_n"] = json["residual_max_n"] = nullptr;
+  return json.dump();
+}
+
+std::vector<std::string> force_sensor_notes(const ForceSensorTask& sensor, const RealSensorLine& line) {
+  const WrenchLink& link = line.link;
+  const std::string name = "force sensor " + line.words + ": ";
+  if (sensor.samples() == 0)
+    return {name + "no valid sample in this run (" + link_words(link) + "); " +
+            (link.records == 0 ? "is it powered, and is this its address?" : "it reports saturation or an error")};
+  std::vector<std::string> notes;
+  const std::uint64_t missing = link.lost + link.malformed + link.unsound;
+  if (static_cast<double>(missing) > kLossyShare * static_cast<double>(link.records) || link.begun > 1)
+    notes.push_back(name + link_words(link));
+  if (!sensor.zero())
+    notes.push_back(name + "no zero was taken, too few samples came in the jig: what it read is not in the record");
+  if (!sensor.compares())
+    notes.push_back(name + "compared with nothing, for no device file says how it sits ([sensor], rpy_deg)");
+  return notes;
 }
 
 std::vector<StoodStill> pauses_of(const std::string& realtime) {

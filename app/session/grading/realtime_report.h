@@ -20,6 +20,7 @@
 #include "app/session/lanes/clock_witness.h"
 #include "app/session/lanes/force_sensor_task.h"
 #include "app/session/lanes/threaded_executor.h"
+#include "haptics/force_sensor/ati/wrench_stream.h"
 #include "scenarios/scoring/trace.h"
 
 namespace trocar {
@@ -35,8 +36,19 @@ std::string pacing_fault(const std::string& realtime, const std::vector<Event>& 
 /// Who stops a run again and again has as long for each touch as he likes.
 inline constexpr int kMostPauses = 3;
 
-/// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}.
-std::string force_sensor_json(const ForceSensorTask& sensor);
+/// A real sensor of a run.
+struct RealSensorLine {
+  std::string words;  ///< as it was asked for: "net-ft:192.168.1.1"
+  WrenchLink link;
+};
+
+/// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}; of a real
+/// sensor also "sensor", "axes" ("theatre", or "sensor" where its own are not configured), "measured_rms_nm", "zero" {
+/// "samples", "force_n", "moment_nm", in its own axes} and "link" {what WrenchLink counts}. What cannot be said,
+/// without a zero or without axes, is null.
+std::string force_sensor_json(const ForceSensorTask& sensor, const std::optional<RealSensorLine>& line = {});
+/// What was amiss with a real sensor, a line each: silent, its line lossy, taken away, no zero, no axes.
+std::vector<std::string> force_sensor_notes(const ForceSensorTask& sensor, const RealSensorLine& line);
 
 /// Where the run stood still, as realtime_json() wrote it; none when it says nothing that can be read.
 struct StoodStill {

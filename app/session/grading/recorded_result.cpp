@@ -81,10 +81,10 @@ AttemptResult recorded_result(const Recording& recording, const std::filesystem:
   if (result.grade.status == AttemptStatus::kVoid && !result.grade.caps.empty()) {
     result.integrity = cap_sentence(result.grade.caps.front());
   }
-  if (recording.end && result.grade.status == AttemptStatus::kAborted)
-    result.integrity = "ended before the exercise did";
   if (!recording.run_report_json.empty()) result.device = parse_run_report(recording.run_report_json, name);
   if (result.integrity.empty()) result.integrity = result.device.reason;
+  if (result.integrity.empty() && recording.end && result.grade.status == AttemptStatus::kAborted)
+    result.integrity = "ended before the exercise did";
   fill_shares(recording, result.device);
   result.device.stiffness = recorded_stiffness(recording, name);
   result.recording_sha256 = recording.sha256;

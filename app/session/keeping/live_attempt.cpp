@@ -55,7 +55,7 @@ LiveMoment live_beginning(const Scene& scene, const std::string& program, const 
   if (scene.level.time_limit_s > 0) out.limit_s = scene.level.time_limit_s;
   if (const auto limit_n = limit_of(scene); limit_n > 0.0) out.limit_n = *limit_n;
   out.count = static_cast<int>(scene.board.targets.size());
-  out.device = scene.loop.daq.motors ? "simulated" : "none";
+  out.device = scene.loop.daq.motors ? scene.setup.backend : "none";
   out.setup =
       "board " + std::to_string(scene.setup.board) +
       (kind_of(exercise).on_organ ? ", organ " + scene.organ.name + (scene.organ.synthetic ? " (synthetic)" : "") : "");

@@ -3,24 +3,38 @@
 // The residual holds what the loop does not know: friction, inertia, errors of weight compensation and of the
 // amplifiers. It is stated in the run report and reaches neither loop nor exercise. Delivered forces are delayed as the
 // sensor delays. Threads: the tap beside the device, the sensor its own.
+//
+// A real sensor speaks in its own axes F, with a zero and a fixture of its own:
+//   F_T = +-R_TF (read - zero - R_FW m g),   R_TF = R_TW R_WS(q) R_SF
+// zero: mean of what it reads in the jig after homing, torque off, less the fixture's weight there. q as it was when
+// the force acted. The fixture's inertia stays in: nothing here measures an acceleration.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/session/lanes/channel.h"
 #include "app/session/lanes/haptic_task.h"
 #include "app/session/lanes/task.h"
+#include "haptics/device/device_model.h"
 #include "haptics/device/simulated_world.h"
 #include "haptics/force_sensor/force_sensor.h"
+#include "haptics/kinematics/hybrid_arm.h"
 
 namespace trocar {
 
-/// Forces of one instant, axes of T, device newtons.
+/// Forces of one instant, axes of T, device newtons; and how the arm stood.
 struct StylusForces {
-  Vec3 on_hand_T = Vec3::Zero();    ///< true, of the simulated device
-  Vec3 delivered_T = Vec3::Zero();  ///< as the loop believes
+  Vec3 on_hand_T = Vec3::Zero();        ///< true, of the simulated device
+  Vec3 delivered_T = Vec3::Zero();      ///< as the loop believes
+  JointVector q = JointVector::Zero();  ///< rad; means something once homed
+  LoopState loop = LoopState::kOff;
+
+  bool unloaded() const { return loop == LoopState::kHomed || loop == LoopState::kArmed; }  ///< homed, torque off
+  bool posed() const { return unloaded() || loop == LoopState::kActive; }
 };
 
 /// Publishes the forces at the stylus after each period of the device.
@@ -34,7 +48,8 @@ class ForceTapTask final : public Task {
   std::uint32_t period() const override { return 1; }
   void run(std::uint64_t tick) override {
     const Vec3 on_hand_T = world_ ? Vec3(R_TW_ * (world_->sense().force_on_hand + fixture_W_)) : Vec3(Vec3::Zero());
-    forces_.write(tick, {on_hand_T, haptic_.record().stylus.rendered_force_T});
+    const TickRecord& record = haptic_.record();
+    forces_.write(tick, {on_hand_T, record.stylus.rendered_force_T, record.q.head<kArmJoints>(), record.stylus.loop});
   }
 
  private:
@@ -62,38 +77,94 @@ class VectorSpread {
   std::uint64_t count_ = 0;
 };
 
+/// A real sensor on a device.
+struct RealSensorPlace {
+  std::optional<SensorMount> mount;  ///< none, or one without axes: nothing is compared
+  Mat3 R_TW = Mat3::Identity();
+};
+
 class ForceSensorTask final : public Task {
  public:
-  ForceSensorTask(Inlet<StylusForces>& forces, ForceSensor& sensor, double loop_rate_hz)
+  /// The zero: so many samples at most, the first after homing (half a second at 40 Hz: the arm still stands in the
+  /// jig), and at least so many [chosen].
+  static constexpr std::uint64_t kZeroSamples = 20, kLeastZeroSamples = 4;
+
+  /// @param real of a real sensor; none: a simulated one, in the axes of T.
+  ForceSensorTask(Inlet<StylusForces>& forces, ForceSensor& sensor, double loop_rate_hz,
+                  std::optional<RealSensorPlace> real = {})
       : forces_(forces),
         sensor_(sensor),
-        delivered_(sensor_.delay() + 1, Vec3::Zero()),
-        period_(static_cast<std::uint32_t>(std::lround(loop_rate_hz / sensor.config().rate_hz))) {}
+        past_(sensor_.delay() + 1),
+        period_(static_cast<std::uint32_t>(std::lround(loop_rate_hz / sensor.config().rate_hz))),
+        real_(std::move(real)) {}
 
   std::uint32_t period() const override { return period_; }
   void run(std::uint64_t tick) override {
     const StylusForces& now = forces_.newest(tick);
     newest_ = sensor_.sample(now.on_hand_T);
-    delivered_[newest_.number % delivered_.size()] = now.delivered_T;
+    past_[newest_.number % past_.size()] = now;
     if (!newest_.valid) return;
-    const Vec3& then = delivered_[(newest_.number + 1) % delivered_.size()];
+    ++samples_;
+    const StylusForces& then = past_[(newest_.number + 1) % past_.size()];
+    if (real_ && !set_free(now, then)) return;
     measured_.add(newest_.force);
-    if (then.norm() > 0) residual_.add(newest_.force - then);
+    measured_moment_.add(newest_.moment_nm);
+    if (compares() && then.delivered_T.norm() > 0) residual_.add(newest_.force - then.delivered_T);
   }
 
   const ForceSample& newest() const { return newest_; }
   const ForceSensorConfig& config() const { return sensor_.config(); }
+  std::uint64_t samples() const { return samples_; }  ///< that were valid
+  /// Of a real sensor without what made its zero, axes of T or, where it does not compare, its own.
   const VectorSpread& measured() const { return measured_; }
+  const VectorSpread& measured_moment() const { return measured_moment_; }  ///< of a real one, N m
+  /// Whether its axes are known, as those of a simulated one are.
+  bool compares() const { return !real_ || (real_->mount && real_->mount->rpy_rad); }
+  /// Of a real sensor, in its axes, fixture's weight taken away; none: too few samples came in the jig.
+  std::optional<Wrench> zero() const {
+    if (zero_samples_ < kLeastZeroSamples) return std::nullopt;
+    return zero_sum_ * (1 / static_cast<double>(zero_samples_));
+  }
+  std::uint64_t zero_samples() const { return zero_samples_; }
   /// Measured minus delivered, over the samples at which the loop delivered a force.
   const VectorSpread& residual() const { return residual_; }
 
  private:
+  /// Takes zero and fixture off the newest sample and turns it into T. @return false: it made the zero, or there is
+  /// none.
+  bool set_free(const StylusForces& now, const StylusForces& then) {
+    const bool making = now.unloaded() && zero_samples_ < kZeroSamples && measured_.count() == 0;
+    const StylusForces& when = then.posed() ? then : now;  // before homing it stood in the jig as it does now
+    if (!when.posed()) return false;
+    Wrench read{newest_.force, newest_.moment_nm};
+    Mat3 R_TF = Mat3::Identity();
+    if (compares()) {
+      const Mat3 R_WF = arm_state(when.q).X_WS.R * real_->mount->R_SF();
+      const Vec3 weight_F = R_WF.transpose() * Vec3(0, 0, -kGravity * real_->mount->fixture_kg);
+      read = read + Wrench{weight_F, real_->mount->fixture_com_F.cross(weight_F)} * -1;
+      R_TF = real_->R_TW * R_WF;
+    }
+    if (making) {
+      zero_sum_ = zero_sum_ + read, ++zero_samples_;
+      return false;
+    }
+    const std::optional<Wrench> off = zero();
+    if (!off) return false;
+    const double sign = real_->mount && real_->mount->body_on_device ? -1 : 1;
+    newest_.force = sign * (R_TF * (read.force - off->force));
+    newest_.moment_nm = sign * (R_TF * (read.moment - off->moment));
+    return true;
+  }
+
   Inlet<StylusForces>& forces_;
   ForceSensor& sensor_;
-  std::vector<Vec3> delivered_;  ///< ring as long as the sensor's delay
+  std::vector<StylusForces> past_;  ///< ring as long as the sensor's delay
   std::uint32_t period_;
   ForceSample newest_;
-  VectorSpread measured_, residual_;
+  std::optional<RealSensorPlace> real_;
+  VectorSpread measured_, measured_moment_, residual_;
+  std::uint64_t samples_ = 0, zero_samples_ = 0;
+  Wrench zero_sum_;
 };
 
 }  // namespace trocar

@@ -1,6 +1,8 @@
 #include "app/session/setup/device_files.h"
 
 #include "app/session/calibration/calibration_file.h"
+#include "haptics/device/backends/make_backend.h"
+#include "haptics/input_error.h"
 #include "scenarios/files/device_file.h"
 #include "scenarios/files/strict_toml.h"
 
@@ -22,6 +24,20 @@ DeviceModel device_model(const DeviceFiles& files) {
   DeviceModel model;
   if (files.identified) model = parse_device(files.identified->text, files.identified->name);
   if (files.calibration) model = calibrated(model, parse_calibration(files.calibration->text, files.calibration->name));
+  return model;
+}
+
+DeviceModel device_model(const DeviceFiles& files, const std::string& backend,
+                         const std::optional<HomingMethod>& asked_for) {
+  DeviceModel model = device_model(files);
+  HomingModel& homing = model.homing;
+  if (is_real_device(backend)) {
+    homing.see_dark = true;
+    if (homing.method == HomingMethod::kLight) homing.method = HomingMethod::kEdges;
+  }
+  if (asked_for) homing.method = *asked_for;
+  if (homing.method == HomingMethod::kIndex && !backend_abilities(backend).index)
+    throw InputError("homing method index: the boards of --backend " + backend + " tell of no index pulse; take edges");
   return model;
 }
 

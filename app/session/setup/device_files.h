@@ -30,6 +30,13 @@ DeviceFiles read_device_files(const std::filesystem::path& calibration, const st
 /// The nominal model with what the files say in its place. @throws InputError naming file and place.
 DeviceModel device_model(const DeviceFiles& files);
 
+/// The same as a loop on that back-end takes it. On a real device the receiver must always have been seen dark, or a
+/// lamp that is stuck at "received" would home any pose, and method `light` gives way to `edges`.
+/// @param asked_for method in place of the files', taken as it is. @throws InputError also: method index on boards that
+/// tell of no index.
+DeviceModel device_model(const DeviceFiles& files, const std::string& backend,
+                         const std::optional<HomingMethod>& asked_for = {});
+
 /// A simulated device in words, as these files name it: "simulated, seed 7".
 std::string simulated_plant_words(std::uint64_t seed);
 /// @param which as true_plant.h words it: "seed 1", "plant file arm.toml, sha256 0123abcd".

@@ -15,6 +15,7 @@
 #include "app/session/setup/patch_fit.h"
 #include "app/session/setup/placement.h"
 #include "app/session/setup/workspace_proof.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/device/pointer_daq.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -520,7 +521,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.level = find_level(setup.exercise, setup.level);
   scene.organ = std::move(organ);
   scene.loop.daq = daq;
-  scene.loop.device = device_model(setup.device);
+  scene.loop.device = device_model(setup.device, setup.backend);
   scene.loop.map = place_theatre(scene.level);
   set_stage(scene);
   scene.room_share = room_share(scene.loop.map, scene.loop.device, setup.exercise.layout, setup.exercise.soft_force_n);
@@ -561,6 +562,7 @@ std::string scene_json(const Scene& scene) {
   if (scene.draw > 0) json["draw"] = scene.draw;
   if (s.tissue != kStillTissue) json["tissue"] = s.tissue;
   if (kind_of(s.exercise).on_organ) json["placement"] = placement_json(scene.placement);
+  if (is_real_device(s.backend)) json["backend"] = s.backend;  // it homes otherwise than a simulated one
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
   return json.dump();
@@ -603,6 +605,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
     if (json.contains("placement"))
       s.placement = placement_of(json.at("placement"), name);  // older recordings: looked for again
     s.device = {file_of(json, "calibration"), file_of(json, "device")};
+    s.backend = json.value("backend", s.backend);
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + kUnreadable + error.what());

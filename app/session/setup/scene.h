@@ -61,7 +61,7 @@ struct AttemptSetup {
   int attempt = 1;                    ///< of a learning hand
   std::int64_t seed = 1;
   int board = 0;
-  std::string backend = "simulated";  ///< a name that make_backend() knows; a replay does not use it
+  std::string backend = "simulated";  ///< a name that make_backend() knows; a replay knows it of a real device only
   std::string card = {};              ///< where its card or boards are, of one that has some
   std::string force_sensor = {};      ///< a real one, as make_force_sensor() takes it
   double rate_hz = 1000;

@@ -86,13 +86,13 @@ Backend mc4000_backend(const BackendOptions& options) {
 }
 
 constexpr BackendKind kBackends[] = {
-    {kSimulatedBackend, 16, true, {.pause = true, .pace = true}, simulated_backend<kSimulatedBackend>},
+    {kSimulatedBackend, 16, true, {.pause = true, .pace = true, .index = true}, simulated_backend<kSimulatedBackend>},
     {kPointerBackend, 16, false, {.pause = true, .pace = true}, pointer_backend},
-    {kHostmot2Backend, hostmot2::kPdmBits + 1, true, {}, hostmot2_backend},
+    {kHostmot2Backend, hostmot2::kPdmBits + 1, true, {.index = true}, hostmot2_backend},
     {kFakeHostmot2Backend,
      hostmot2::kPdmBits + 1,
      true,
-     {.pause = true, .pace = true},
+     {.pause = true, .pace = true, .index = true},
      simulated_backend<kFakeHostmot2Backend>},
     {kMc4000Backend, Mc4000Map{}.dac_bits, true, {}, mc4000_backend},
     {kEmulatedMc4000Backend,
@@ -124,21 +124,33 @@ DaqCapabilities backend_capabilities(const std::string& name, double rate_hz) {
 }
 
 BackendAbilities backend_abilities(const std::string& name) { return backend_kind(name).can; }
+bool is_real_device(const std::string& name) { return !backend_abilities(name).pace; }
 
 Backend make_backend(const std::string& name, const BackendOptions& options) {
   const BackendKind& kind = backend_kind(name);
   Backend backend = kind.make(options);
   backend.can = kind.can;
-  if (!options.force_sensor.empty()) backend.sensor = make_force_sensor(options.force_sensor);
+  if (!options.force_sensor.empty()) {
+    auto real = make_force_sensor(options.force_sensor, options.sensor_mount);
+    backend.stream = real.get();
+    backend.sensor = std::move(real);
+  }
   return backend;
 }
 
-std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words) {
+std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const std::optional<SensorMount>& mount) {
   const std::size_t colon = words.find(':');
   const std::string kind = words.substr(0, colon), where = colon == std::string::npos ? "" : words.substr(colon + 1);
-  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, WrenchStreamOptions{});
-  if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, nano25_options());
-  throw InputError("--sensor " + words + ": net-ft:ADDRESS or serial:DEVICE is expected");
+  WrenchStreamOptions options = kind == "net-ft" ? WrenchStreamOptions{} : nano25_options();
+  if (mount) {
+    options.counts_per_n = mount->counts_per_n.value_or(options.counts_per_n);
+    options.counts_per_nm = mount->counts_per_nm.value_or(options.counts_per_nm);
+  }
+  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, options);
+  if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, options);
+  if (kind == "serial-binary" && !where.empty())
+    return std::make_unique<AtiSerial>(where, options, AtiRecords::kBinary);
+  throw InputError("--sensor " + words + ": net-ft:ADDRESS, serial:DEVICE or serial-binary:DEVICE is expected");
 }
 
 Backend replay_backend(std::vector<DaqSample> samples, const DaqCapabilities& recorded) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -50,6 +51,51 @@ bool read_ati_line(const std::string& line, AtiLine& into) {
   return true;
 }
 
+AtiLine AtiFrames::at(std::size_t begin) const {
+  AtiLine out;
+  out.status = seen_[begin];
+  for (std::size_t i = 0; i < out.counts.size(); ++i)
+    out.counts[i] = static_cast<std::int16_t>(seen_[begin + 1 + 2 * i] << 8 | seen_[begin + 2 + 2 * i]);
+  return out;
+}
+
+/// Whether a sound record begins there that goes on from the one before.
+bool AtiFrames::goes_on(std::size_t begin) const {
+  const AtiLine now = at(begin), before = at(begin - kBytes);
+  bool goes = now.status == kSound;
+  for (std::size_t i = 0; i < now.counts.size(); ++i)
+    goes = goes && std::abs(now.counts[i] - before.counts[i]) <= kStep;
+  return goes;
+}
+
+std::optional<AtiLine> AtiFrames::find() {
+  if (filled_ < kSeen) return std::nullopt;
+  std::optional<std::size_t> only;
+  for (std::size_t begin = 0; begin < kBytes; ++begin) {
+    if (seen_[begin + (kAgree - 2) * kBytes] != kSound || !goes_on(begin + (kAgree - 1) * kBytes)) continue;
+    if (only) return std::nullopt;
+    only = begin;
+  }
+  if (!only || seen_[*only] != kSound) return std::nullopt;
+  for (std::size_t k = 1; k < kAgree; ++k)
+    if (!goes_on(*only + k * kBytes)) return std::nullopt;
+  since_ = kBytes - 1 - *only;
+  return at(*only + (kAgree - 2) * kBytes);
+}
+
+std::optional<AtiLine> AtiFrames::push(std::uint8_t byte) {
+  std::copy(seen_.begin() + 1, seen_.end(), seen_.begin());
+  seen_.back() = byte;
+  filled_ = std::min(filled_ + 1, kSeen);
+  if (!since_) return find();
+  if (++*since_ < kBytes) return std::nullopt;
+  since_ = 0;
+  if (goes_on(kSeen - kBytes)) return at(kSeen - 2 * kBytes);
+  since_.reset();
+  ++broken_;
+  return std::nullopt;
+}
+
 /// @return 0, or what the system says of it.
 int AtiSerial::open_port() {
   port_ = ::open(device_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -70,8 +116,8 @@ void AtiSerial::close_port() {
   if (port_ >= 0) ::close(std::exchange(port_, -1));
 }
 
-AtiSerial::AtiSerial(const std::string& device, const WrenchStreamOptions& options)
-    : WrenchStream(options), device_(device) {
+AtiSerial::AtiSerial(const std::string& device, const WrenchStreamOptions& options, AtiRecords records)
+    : WrenchStream(options), device_(device), records_(records) {
   if (const int why = open_port(); why != 0)
     throw EnvironmentError(
         "force sensor " + device + ": " + (why == ENOTTY ? "no serial line" : std::strerror(why)) +
@@ -92,7 +138,8 @@ void AtiSerial::say(const char* command) {
 
 void AtiSerial::begin() {
   line_.clear();
-  for (const char* command : {"", "CD A", "CD R", "QS"}) say(command);
+  frames_ = {};
+  for (const char* command : {"", records_ == AtiRecords::kBinary ? "CD B" : "CD A", "CD R", "QS"}) say(command);
   count(&WrenchLink::begun);
 }
 
@@ -120,8 +167,25 @@ void AtiSerial::listen() {
   }
 }
 
-/// @return whether a whole line was among them.
+/// @return whether a record was among them.
+bool AtiSerial::take_binary(const char* bytes, std::size_t size) {
+  bool whole = false;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint64_t broken = frames_.broken();
+    if (const std::optional<AtiLine> read = frames_.push(static_cast<std::uint8_t>(bytes[i]))) {
+      take(read->counts, true);
+      whole = true;
+    } else if (frames_.broken() > broken) {
+      count(&WrenchLink::malformed);
+      take({}, false);  // saturated, or out of place: nothing holds until it is found again
+    }
+  }
+  return whole;
+}
+
+/// @return whether a whole record was among them.
 bool AtiSerial::take_in(const char* bytes, std::size_t size) {
+  if (records_ == AtiRecords::kBinary) return take_binary(bytes, size);
   bool whole = false;
   for (std::size_t i = 0; i < size; ++i) {
     const char c = bytes[i];

@@ -1,5 +1,7 @@
 #include "haptics/force_sensor/ati/net_ft.h"
 
+#include <utility>
+
 namespace trocar {
 namespace {
 
@@ -34,18 +36,20 @@ void NetFt::ask(std::uint16_t command) {
 void NetFt::listen() {
   lbp16::Datagram datagram;
   double silent_s = options().silent_s;
+  bool heard = false;  // since it was asked
   while (!ends()) {
     if (silent_s >= options().silent_s) {
       ask(kStream);
+      stopped_ = std::exchange(heard, false);
       first_ = true;  // a box that began anew counts from the start
       count(&WrenchLink::begun);
       silent_s = 0;
     }
     if (!link_.receive(datagram, kListen_s)) {
-      silent_s += kListen_s;
+      silent_s += kListen_s, stopped_ = false;
       continue;
     }
-    if (take_in(datagram)) silent_s = 0;
+    if (take_in(datagram)) silent_s = 0, heard = true;
   }
 }
 
@@ -62,8 +66,11 @@ bool NetFt::take_in(const lbp16::Datagram& datagram) {
     return false;
   }
   if (!first_ && !older && ahead > 1 && ahead < kRestarted) count(&WrenchLink::lost, ahead - 1);
+  const std::uint32_t sensors = big_endian(datagram, 4);
+  if (std::exchange(stopped_, false) && sensors - sensors_ - 1 < kRestarted) count(&WrenchLink::taken_away);
   first_ = false;
   sequence_ = sequence;
+  sensors_ = sensors;
   std::array<std::int64_t, 6> counts{};
   for (std::size_t i = 0; i < 6; ++i) counts[i] = static_cast<std::int32_t>(big_endian(datagram, 12 + 4 * i));
   take(counts, big_endian(datagram, 8) == 0);

@@ -6,11 +6,23 @@
 namespace trocar {
 namespace {
 
-constexpr std::uint64_t WrenchLink::*kCounters[] = {&WrenchLink::records,      &WrenchLink::lost,
-                                                    &WrenchLink::out_of_order, &WrenchLink::malformed,
-                                                    &WrenchLink::unsound,      &WrenchLink::begun};
+constexpr std::uint64_t WrenchLink::*kCounters[] = {
+    &WrenchLink::records, &WrenchLink::lost,  &WrenchLink::out_of_order, &WrenchLink::malformed,
+    &WrenchLink::unsound, &WrenchLink::begun, &WrenchLink::taken_away};
 
 }  // namespace
+
+std::string link_words(const WrenchLink& link) {
+  std::string out = std::to_string(link.records) + " records, " + std::to_string(link.lost) + " lost, " +
+                    std::to_string(link.malformed) + " broken, " + std::to_string(link.unsound) +
+                    " saturated or in error; asked to begin " +
+                    (link.begun == 1 ? "once" : std::to_string(link.begun) + " times");
+  if (link.taken_away > 0)
+    out += "; " + std::to_string(link.taken_away) + (link.taken_away == 1 ? " time" : " times") +
+           " its records stopped and went on as soon as it was asked: another program may be listening to it, which "
+           "takes them away";
+  return out;
+}
 
 std::int64_t monotonic_ns() {
   timespec now = {};
@@ -56,11 +68,9 @@ void WrenchStream::take(const std::array<std::int64_t, 6>& counts, bool sound) {
     moment[i] = static_cast<double>(counts[static_cast<std::size_t>(3 + i)]) / options_.counts_per_nm;
   record.sound =
       sound && force.cwiseAbs().maxCoeff() <= options_.most_n && moment.cwiseAbs().maxCoeff() <= options_.most_nm;
-  force = options_.R_out_sensor * force;
-  moment = options_.R_out_sensor * moment;
-  if (record.sound && bias_due_.exchange(false)) zero_ = force - options_.fixture_n, zero_moment_ = moment;
+  if (record.sound && bias_due_.exchange(false)) zero_ = force, zero_moment_ = moment;
   record.moment_nm = moment - zero_moment_;
-  record.force_n = force - zero_ - options_.fixture_n;
+  record.force_n = force - zero_;
   newest_.write(record);
   if (!record.sound) count(&WrenchLink::unsound);
   count(&WrenchLink::records);  // last: who sees it counted finds it
@@ -75,7 +85,7 @@ std::pair<WrenchRecord, bool> WrenchStream::newest() {
 
 ForceSample WrenchStream::sample(const Vec3& /*acting*/) {
   const auto [record, holds] = newest();
-  return {.number = ++sampled_, .force = record.force_n, .valid = holds};
+  return {.number = ++sampled_, .force = record.force_n, .valid = holds, .moment_nm = record.moment_nm};
 }
 
 }  // namespace trocar

@@ -1,8 +1,10 @@
 // A real force/torque sensor that talks of its own accord: a thread listens, the sensor's task takes the newest record.
 //
-// What a peer says is turned into newtons, freed of the fixture's weight, dated by the host's clock at its arrival, and
-// marked: not sound where the peer reports saturation or an error. A sensor that says nothing for silent_s is not valid
-// from then on, and is asked to begin anew. Threads: one of its own; sample() the sensor task's; it waits for nothing.
+// What a peer says is turned into newtons in the sensor's own axes, dated by the host's clock at its arrival, and
+// marked: not sound where the peer reports saturation or an error. How the sensor sits on the device, and the weight
+// that hangs on it, are its reader's (SensorMount in haptics/device/device_model.h). A sensor that says nothing for
+// silent_s is not valid from then on, and is asked to begin anew. Threads: one of its own; sample() the sensor task's;
+// it waits for nothing.
 #pragma once
 
 #include <array>
@@ -26,25 +28,29 @@ struct WrenchStreamOptions {
   double silent_s = 0.2;       ///< without a record: not valid, and asked again [chosen]
   double counts_per_n = 1e6;   ///< as the box or calibration sheet says [M: Net F/T's usual]
   double counts_per_nm = 1e6;  ///< likewise
-  Mat3 R_out_sensor = Mat3::Identity();     ///< from the sensor's axes to those of the force that is given out
-  Vec3 fixture_n = Vec3::Zero();            ///< weight that hangs on the sensor, in the axes given out; taken away
   std::int64_t (*now_ns)() = monotonic_ns;  ///< that dates records and tells their age
   double most_nm = 3;                       ///< likewise
   double most_n = 125;                      ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
 };
 
 struct WrenchRecord {
-  std::uint64_t number = 0;  ///< of records taken in, from 1
-  Vec3 force_n = Vec3::Zero();
-  Vec3 moment_nm = Vec3::Zero();  ///< about the sensor's origin, turned as the force; bias taken away
+  std::uint64_t number = 0;       ///< of records taken in, from 1
+  Vec3 force_n = Vec3::Zero();    ///< axes of the sensor, bias taken away
+  Vec3 moment_nm = Vec3::Zero();  ///< about the sensor's origin, likewise
   std::int64_t arrived_ns = 0;    ///< CLOCK_MONOTONIC
   bool sound = false;
 };
 
 /// What happened on the way since it was opened.
 struct WrenchLink {
-  std::uint64_t records = 0, lost = 0, out_of_order = 0, malformed = 0, unsound = 0, begun = 0;
+  std::uint64_t records = 0, lost = 0, out_of_order = 0, malformed = 0, unsound = 0;
+  std::uint64_t begun = 0;  ///< how often it was asked to begin: at first, and at each silence
+  /// How often records stopped although the sensor was there, unbroken: it went on as soon as it was asked.
+  std::uint64_t taken_away = 0;
 };
+
+/// "1000 records, 12 lost, 0 broken, 0 saturated or in error; asked to begin once", and what that may mean.
+std::string link_words(const WrenchLink& link);
 
 class WrenchStream : public ForceSensor {
  public:
@@ -78,7 +84,7 @@ class WrenchStream : public ForceSensor {
   std::uint64_t taken_ = 0, sampled_ = 0;
   Vec3 zero_ = Vec3::Zero(), zero_moment_ = Vec3::Zero();
   std::atomic<bool> bias_due_ = false, ends_ = false;
-  std::array<std::atomic<std::uint64_t>, 6> counters_{};
+  std::array<std::atomic<std::uint64_t>, 7> counters_{};
   std::thread thread_;
 };
 

@@ -82,6 +82,21 @@ TEST(LiveSession, ItsRunReportSaysHowItWasPaced) {
   EXPECT_NE(fifo, haptic.contains("refused")) << "given, or the reason why not";
 }
 
+TEST(LiveSession, ARealSensorThatSaysNothingIsNamedInItsRecordAndInWords) {
+  Scene scene = short_scene(true);
+  scene.setup.force_sensor = "net-ft:127.0.0.1:1";
+  int asked = 0;
+  const Taken live = take(scene, [&] { return ++asked > 50; });
+  const auto run_report = nlohmann::json::parse(live.recording.run_report_json).at("force_sensor");
+  EXPECT_EQ(run_report.at("sensor"), "net-ft:127.0.0.1:1");
+  EXPECT_EQ(run_report.at("samples"), 0);
+  EXPECT_EQ(run_report.at("link").at("records"), 0);
+  EXPECT_GT(run_report.at("link").at("begun"), 0);
+  EXPECT_TRUE(run_report.at("residual_rms_n").is_null());
+  ASSERT_FALSE(live.outcome.notes.empty());
+  EXPECT_NE(live.outcome.notes.front().find("net-ft:127.0.0.1:1: no valid sample"), std::string::npos);
+}
+
 TEST(LiveSession, AnInterruptEndsItAsAbortedAndItCanStillBeReplayed) {
   const Scene scene = short_scene(true);
   int asked = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/session/grading/device_words.h"
+#include "app/session/grading/recorded_result.h"
 #include "app/session/recording/safety_file.h"
 #include "app/session/session.h"
 #include "haptics/input_error.h"
@@ -88,6 +89,14 @@ TEST(SessionSafety, ASoundAttemptHasNoReasonAndKeepsNoStop) {
   EXPECT_EQ(outcome.device.transitions.size(), 5u) << "off to active";
 }
 
+TEST(SessionSafety, AnAttemptThatIsNeverHomedSaysWhatTheDeviceWaitedFor) {
+  const auto [outcome, recording] = run(scene_with({InjectedFaultKind::kBeamDark, 0, 0, 0, 0}, 5));
+  EXPECT_EQ(outcome.status, AttemptStatus::kAborted);
+  EXPECT_NE(outcome.device.reason.find("Put the stylus into its jig. No light"), std::string::npos)
+      << outcome.device.reason;
+  EXPECT_EQ(recorded_result(recording, "").integrity, outcome.device.reason) << "and so it is stored";
+}
+
 TEST(DeviceWords, EveryFaultSaysWhatToDo) {
   for (int code = 1; std::string(fault_name(static_cast<FaultCode>(code))) != "unknown"; ++code) {
     RunReport device;
@@ -97,7 +106,7 @@ TEST(DeviceWords, EveryFaultSaysWhatToDo) {
     device.fault_value = 17.5;
     const std::string words = fault_words(device);
     EXPECT_TRUE(words.starts_with(device.fault + " on channel 4 at 1.250 s: ")) << words;
-    EXPECT_NE(words.find("; then reset, home"), std::string::npos) << words;
+    EXPECT_NE(words.find("; then put the stylus into its jig and start again"), std::string::npos) << words;
     EXPECT_EQ(words.find('%'), std::string::npos) << words;
   }
   EXPECT_EQ(fault_words({}), "");

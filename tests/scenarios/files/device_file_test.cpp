@@ -49,6 +49,42 @@ TEST(DeviceFile, ReadsBackBitForBit) {
   EXPECT_EQ(device_toml(again, "x"), device_toml(model, "x"));
 }
 
+TEST(DeviceFile, ASensorReadsBackWithItsAxesFixtureAndCounts) {
+  const DeviceModel read =
+      load_device(written("[sensor]\nrpy_deg = [180, 0, 90]\nbody = \"device\"\nfixture_kg = 0.08\n"
+                          "fixture_com_mm = [0, 1, -20]\ncounts_per_n = 1000\ncounts_per_nm = 2e5\n"));
+  ASSERT_TRUE(read.sensor);
+  // Rolled over first, then turned by the yaw: x of the sensor along y of the stylus, y along its x, z against its z.
+  Mat3 turned;
+  turned << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  EXPECT_LT((read.sensor->R_SF() - turned).norm(), 1e-12);
+  EXPECT_TRUE(read.sensor->body_on_device);
+  EXPECT_EQ(read.sensor->fixture_kg, 0.08);
+  EXPECT_LT((read.sensor->fixture_com_F - Vec3(0, 1e-3, -20e-3)).norm(), 1e-15);
+  const DeviceModel again = load_device(written(device_toml(read, "of a test")));
+  ASSERT_TRUE(again.sensor);
+  EXPECT_LT((again.sensor->R_SF() - turned).norm(), 1e-12);
+  EXPECT_LT((again.sensor->fixture_com_F - read.sensor->fixture_com_F).norm(), 1e-15);
+  EXPECT_EQ(again.sensor->body_on_device, true);
+  EXPECT_EQ(again.sensor->counts_per_n, 1000);
+  EXPECT_EQ(again.sensor->counts_per_nm, 2e5);
+  const DeviceModel counts_only = load_device(written("[sensor]\ncounts_per_n = 1000\n"));
+  EXPECT_FALSE(counts_only.sensor->rpy_rad) << "its axes are not known then";
+  EXPECT_FALSE(counts_only.sensor->counts_per_nm);
+}
+
+TEST(DeviceFile, ASensorThatMakesNoSenseIsRefusedAtItsPlace) {
+  EXPECT_NE(refusal("[sensor]\nfixture_kg = 0.08\n").find("trocar_device_file_test.toml:2"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nfixture_kg = 0.08\n").find("rpy_deg"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nrpy_deg = [0, 0, 0]\nfixture_com_mm = [0, 0, 1]\n").find("fixture_kg"),
+            std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nrpy_deg = [0, 0]\n").find("rpy_deg"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nrpy_deg = [0, 0, 400]\n").find("rpy_deg"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\ncounts_per_n = 0\n").find("counts_per_n"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nbody = \"foot\"\n").find("body"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nfixture_g = 80\n").find("fixture_g"), std::string::npos);
+}
+
 TEST(DeviceFile, CommentIsOneAndKeepsItsLines) {
   EXPECT_EQ(device_toml(sample(), "two\nlines").substr(0, 14), "# two\n# lines\n");
 }

@@ -28,7 +28,7 @@ TEST(FaultWords, EveryFaultOfTheDeviceHasACauseAndAdvice) {
     ASSERT_NE(name, "unknown") << code;
     const std::string words = fault_words(stopped(name));
     EXPECT_EQ(words.find(name + " on channel 2 at 3.001 s: "), 0u) << words;
-    EXPECT_CONTAINS(words, "; then reset, home the device in its jig and start again.");
+    EXPECT_CONTAINS(words, "; then put the stylus into its jig and start again: the device homes anew.");
     EXPECT_EQ(words.find('%'), std::string::npos) << "the value stands in its place: " << words;
     texts.insert(words.substr(words.find(": ")));
   }
@@ -62,6 +62,10 @@ TEST(EndWords, SayWhyAnAttemptWasNotGraded) {
             "the exercise never began: the device was homed, waiting for the deadman to be closed");
   EXPECT_EQ(end_words(AttemptStatus::kAborted, none, LoopState::kSelfTest, false),
             "the exercise never began: the device was self-test");
+  EXPECT_EQ(end_words(AttemptStatus::kAborted, none, LoopState::kUnhomed, false,
+                      {.step = HomingStep::kJig, .trouble = HomingTrouble::kDark}),
+            "the exercise never began: the device was unhomed. Put the stylus into its jig. No light: turn the stylus, "
+            "look at the light's wires.");
   for (const AttemptStatus graded : {AttemptStatus::kCompleted, AttemptStatus::kTimeout}) {
     EXPECT_EQ(end_words(graded, stopped("drive-hot"), LoopState::kActive, true), "") << status_name(graded);
   }

@@ -188,6 +188,86 @@ TEST(ForceSensorReport, WithoutASampleItIsZeroNotNothing) {
   EXPECT_EQ(json.at("residual_rms_n"), 0);
 }
 
+/// Always the same, in its own axes; or never valid.
+class RealSensor final : public ForceSensor {
+ public:
+  explicit RealSensor(bool valid) : valid_(valid) {}
+  ForceSample sample(const Vec3&) override { return {.number = ++number_, .force = Vec3(0, 0, 4), .valid = valid_}; }
+  const ForceSensorConfig& config() const override { return config_; }
+  std::size_t delay() const override { return 0; }
+
+ private:
+  bool valid_;
+  ForceSensorConfig config_;
+  std::uint64_t number_ = 0;
+};
+
+/// Ten samples in the jig, five in a contact of 1 N.
+void attempt_of(ForceSensorTask& task, LiveChannel<StylusForces>& forces) {
+  for (std::uint64_t k = 0; k < 15; ++k) {
+    const bool active = k >= 10;
+    forces.write(k, {Vec3::Zero(), active ? Vec3(0, 1, 0) : Vec3(0, 0, 0), JointVector::Zero(),
+                     active ? LoopState::kActive : LoopState::kHomed});
+    task.run(k);
+  }
+}
+
+TEST(ForceSensorReport, ARealOneIsNamedWithItsLineItsZeroAndItsAxes) {
+  LiveChannel<StylusForces> forces;
+  RealSensor real(true);
+  SensorMount sits;
+  sits.rpy_rad = Vec3::Zero();
+  ForceSensorTask task(forces, real, 1000, RealSensorPlace{sits});
+  attempt_of(task, forces);
+  const RealSensorLine line{"net-ft:192.168.1.1", {.records = 15000, .lost = 3, .begun = 1}};
+  const Json json = Json::parse(force_sensor_json(task, line));
+  EXPECT_EQ(json.at("sensor"), "net-ft:192.168.1.1");
+  EXPECT_EQ(json.at("axes"), "theatre");
+  EXPECT_EQ(json.at("samples"), 15);
+  EXPECT_EQ(json.at("zero").at("samples"), 10);
+  EXPECT_NEAR(json.at("zero").at("force_n")[2], 4, 1e-12);
+  EXPECT_EQ(json.at("link").at("records"), 15000);
+  EXPECT_EQ(json.at("link").at("lost"), 3);
+  EXPECT_EQ(json.at("link").at("taken_away"), 0);
+  EXPECT_NEAR(json.at("measured_rms_n"), 0, 1e-12);
+  EXPECT_NEAR(json.at("residual_rms_n"), 1, 1e-12);
+  EXPECT_TRUE(force_sensor_notes(task, line).empty()) << "3 of 15000 are no word worth";
+}
+
+TEST(ForceSensorReport, WithoutAxesNothingIsComparedAndItIsSaid) {
+  LiveChannel<StylusForces> forces;
+  RealSensor real(true);
+  ForceSensorTask task(forces, real, 1000, RealSensorPlace{});
+  attempt_of(task, forces);
+  const RealSensorLine line{"serial:/dev/ttyUSB0", {.records = 500, .lost = 6, .begun = 2, .taken_away = 1}};
+  const Json json = Json::parse(force_sensor_json(task, line));
+  EXPECT_EQ(json.at("axes"), "sensor");
+  EXPECT_TRUE(json.at("residual_rms_n").is_null());
+  EXPECT_TRUE(json.at("residual_max_n").is_null());
+  EXPECT_TRUE(json.at("measured_rms_n").is_number());
+  const std::vector<std::string> notes = force_sensor_notes(task, line);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_CONTAINS(notes[0], "serial:/dev/ttyUSB0: 500 records, 6 lost");
+  EXPECT_CONTAINS(notes[0], "another program may be listening");
+  EXPECT_CONTAINS(notes[1], "rpy_deg");
+}
+
+TEST(ForceSensorReport, ASilentOneIsSaidToBe) {
+  LiveChannel<StylusForces> forces;
+  RealSensor real(false);
+  ForceSensorTask task(forces, real, 1000, RealSensorPlace{});
+  attempt_of(task, forces);
+  const RealSensorLine silent{"net-ft:127.0.0.1:1", {.begun = 70}}, sick{"net-ft:127.0.0.1:1", {.records = 9}};
+  const Json json = Json::parse(force_sensor_json(task, silent));
+  EXPECT_EQ(json.at("samples"), 0);
+  EXPECT_TRUE(json.at("measured_rms_n").is_null()) << "not zero newtons";
+  EXPECT_TRUE(json.at("zero").at("force_n").is_null());
+  ASSERT_EQ(force_sensor_notes(task, silent).size(), 1u);
+  EXPECT_CONTAINS(force_sensor_notes(task, silent)[0], "net-ft:127.0.0.1:1: no valid sample in this run (0 records");
+  EXPECT_CONTAINS(force_sensor_notes(task, silent)[0], "is it powered");
+  EXPECT_CONTAINS(force_sensor_notes(task, sick)[0], "saturation or an error");
+}
+
 RunReport stopped() {
   RunReport run_report;
   run_report.backend = "simulated";

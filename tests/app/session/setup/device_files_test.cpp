@@ -19,9 +19,11 @@
 #include "app/session/calibration/calibration_file.h"
 #include "app/session/session.h"
 #include "app/session/setup/true_plant.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/device_file.h"
 #include "scenarios/files/exercise_loader.h"
+#include "tests/scenarios/support/bad_exercise.h"
 #include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::device_files_test {
@@ -99,6 +101,50 @@ TEST(DeviceModelOfFiles, IsNominalWithoutAny) {
   EXPECT_EQ(model.transmission[0].amps_per_volt, nominal.transmission[0].amps_per_volt);
 }
 
+DeviceFiles homed_by(const std::string& homing) {
+  return {std::nullopt, DeviceFile{"[homing]\n" + homing + "\n", "jig.toml"}};
+}
+
+TEST(DeviceModelOfFiles, OfARealDeviceNeverTakesALampThatIsStuckForTheJig) {
+  for (const char* real : {kHostmot2Backend, kMc4000Backend}) {
+    for (const DeviceFiles& files : {DeviceFiles{}, homed_by("method = \"light\"\nsee_dark = false")}) {
+      const HomingModel homing = device_model(files, real).homing;
+      EXPECT_TRUE(homing.see_dark) << real;
+      EXPECT_EQ(homing.method, HomingMethod::kEdges) << real;
+    }
+    EXPECT_TRUE(device_model({}, real, HomingMethod::kLight).homing.see_dark) << real;
+  }
+  for (const char* simulated : {kSimulatedBackend, kFakeHostmot2Backend, kEmulatedMc4000Backend}) {
+    const HomingModel homing = device_model({}, simulated).homing;
+    EXPECT_FALSE(homing.see_dark) << simulated;
+    EXPECT_EQ(homing.method, HomingMethod::kLight) << simulated;
+  }
+}
+
+TEST(DeviceModelOfFiles, ByTheIndexIsRefusedWhereTheBoardsTellOfNone) {
+  const DeviceFiles files = homed_by("method = \"index\"\nmarks_123_counts = [1, 2, 3]\nmarks_456_counts = [4, 5, 6]");
+  for (const char* without : {kMc4000Backend, kEmulatedMc4000Backend})
+    EXPECT_CONTAINS(message_of<InputError>([&] { device_model(files, without); }), "tell of no index pulse");
+  EXPECT_EQ(device_model(files, kHostmot2Backend).homing.method, HomingMethod::kIndex);
+  EXPECT_EQ(device_model(files, kSimulatedBackend).homing.index_counts[5], 6);
+}
+
+/// Its recording must be replayed by a loop that homes as that one did.
+TEST(DeviceModelOfFiles, OfARealDeviceIsThatOfItsReplayToo) {
+  const AssetRoots assets = find_assets();
+  AttemptSetup setup;
+  setup.exercise = find_exercise("reach-and-orient", assets.exercises);
+  setup.hand = "device";
+  setup.backend = kHostmot2Backend;
+  const Scene scene = build_scene(setup, assets, backend_capabilities(setup.backend, setup.rate_hz));
+  EXPECT_TRUE(scene.loop.device.homing.see_dark);
+  const RecordedSetup recorded = parse_scene_json(scene_json(scene), "recorded");
+  const Scene replayed = build_scene(recorded.setup, assets, recorded.daq);
+  EXPECT_TRUE(replayed.loop.device.homing.see_dark);
+  EXPECT_EQ(replayed.loop.device.homing.method, HomingMethod::kEdges);
+  EXPECT_THROW(parse_scene_json(test::edited(scene_json(scene), "\"hostmot2\"", "4"), "edited"), InputError);
+}
+
 TEST(DeviceModelOfFiles, TakesBothTogether) {
   DeviceFiles files = identified();
   files.calibration = DeviceFile{calibration_text(5, 0.004), "c.json"};
@@ -121,6 +167,9 @@ TEST(DeviceModelOfFiles, TheIdentifiedOneCarriesAWeightThatTheNominalOneLeavesTo
 TEST(DeviceFiles, SayWhatIsWrongAndWhere) {
   EXPECT_NE(message_of<InputError>([] { read_device_files("/nowhere/c.json", ""); }).find("/nowhere/c.json"),
             std::string::npos);
+  const test::TemporaryFolder folder;
+  const std::filesystem::path nothing = folder.write("nothing.toml", "");
+  EXPECT_CONTAINS(message_of<InputError>([&] { read_device_files("", nothing); }), "nothing.toml: is empty");
   const auto refusal = [](const DeviceFiles& files) { return message_of<InputError>([&] { device_model(files); }); };
   const DeviceFile toml{identified_text(), "found.toml"}, json{calibration_text(1, 0), "c.json"};
   EXPECT_NE(refusal({toml, std::nullopt}).find("found.toml: no JSON object"), std::string::npos)

@@ -6,13 +6,16 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <functional>
 #include <mutex>
 #include <random>
 #include <thread>
+#include <vector>
 
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/force_sensor/ati/ati_serial.h"
 #include "haptics/force_sensor/ati/fake_sensor.h"
 #include "haptics/force_sensor/ati/net_ft.h"
@@ -73,19 +76,16 @@ class FakeBox {
   std::thread thread_;
 };
 
-TEST(NetFt, RecordsBecomeNewtonsFreedOfTheFixture) {
+TEST(NetFt, RecordsBecomeNewtonsInTheSensorsOwnAxes) {
   FakeBox box;
-  WrenchStreamOptions options;
-  options.fixture_n = Vec3(0, 0, -0.5);
-  options.R_out_sensor = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix();
-  NetFt sensor(box.address(), options);
+  NetFt sensor(box.address(), {});
   ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
-  EXPECT_LT((sensor.sample(Vec3::Zero()).force - Vec3(2, 1.5, 0.5)).norm(), 1e-9)
-      << "turned, and the weight taken away";
+  EXPECT_LT((sensor.sample(Vec3::Zero()).force - Vec3(1.5, -2, 0)).norm(), 1e-9);
+  EXPECT_LT((sensor.sample(Vec3::Zero()).moment_nm - Vec3(0, 0, 0.5)).norm(), 1e-9);
   sensor.bias();
   ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).force.norm() < 1e-9; }));
   box.force_uN = 2'500'000;
-  ASSERT_TRUE(soon([&] { return (sensor.sample(Vec3::Zero()).force - Vec3(0, 1, 0)).norm() < 1e-9; }));
+  ASSERT_TRUE(soon([&] { return (sensor.sample(Vec3::Zero()).force - Vec3(1, 0, 0)).norm() < 1e-9; }));
   EXPECT_EQ(sensor.link().lost, 0U) << "the sequence wraps without a gap";
   EXPECT_EQ(sensor.delay(), 6U);
 }
@@ -126,6 +126,44 @@ TEST(NetFt, SilenceIsNotValidAndABoxThatBeganAnewIsAskedAgain) {
   EXPECT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
 }
 
+TEST(NetFt, TwoThatListenToOneBoxAreTold) {
+  FakeBox box;
+  NetFt first(box.address(), {});
+  ASSERT_TRUE(soon([&] { return first.sample(Vec3::Zero()).valid; }));
+  EXPECT_EQ(first.link().taken_away, 0U);
+  NetFt second(box.address(), {});
+  EXPECT_TRUE(soon([&] { return first.link().taken_away >= 2 && second.link().taken_away >= 2; }));
+  EXPECT_NE(link_words(first.link()).find("another program may be listening"), std::string::npos);
+}
+
+TEST(NetFt, ABoxThatWasSilentOrBeganAnewIsNotTakenAway) {
+  FakeBox box;
+  NetFt sensor(box.address(), {});
+  ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
+  ASSERT_TRUE(soon([&] { return sensor.link().records > 500; })) << "beyond the wrap";
+  box.restart = true;
+  const auto begun = sensor.link().begun;
+  ASSERT_TRUE(soon([&] { return sensor.link().begun > begun && sensor.sample(Vec3::Zero()).valid; }));
+  box.silent = true;
+  ASSERT_TRUE(soon([&] { return sensor.link().begun >= begun + 3; })) << "asked twice in vain";
+  box.silent = false;
+  ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
+  EXPECT_EQ(sensor.link().taken_away, 0U);
+  EXPECT_EQ(link_words({.records = 5, .lost = 1, .begun = 1}),
+            "5 records, 1 lost, 0 broken, 0 saturated or in error; asked to begin once");
+}
+
+TEST(ForceSensors, CountsOfANewtonAreThoseOfTheDeviceFile) {
+  FakeBox box;
+  SensorMount calibrated;
+  calibrated.counts_per_n = 5e5;
+  calibrated.counts_per_nm = 2e6;
+  const auto sensor = make_force_sensor("net-ft:" + box.address(), calibrated);
+  ASSERT_TRUE(soon([&] { return sensor->sample(Vec3::Zero()).valid; }));
+  EXPECT_LT((sensor->sample(Vec3::Zero()).force - Vec3(3, -4, 0)).norm(), 1e-9);
+  EXPECT_LT((sensor->sample(Vec3::Zero()).moment_nm - Vec3(0, 0, 0.25)).norm(), 1e-9);
+}
+
 TEST(NetFt, ASampleAllocatesNothingAndWaitsForNobody) {
   FakeBox box;
   NetFt sensor(box.address(), {});
@@ -155,6 +193,79 @@ TEST(AtiLine, AMillionRandomBytesAreNoRecord) {
     for (char& c : text) c = static_cast<char>(random());
     taken += read_ati_line(text, line) ? 1 : 0;
   }
+  EXPECT_EQ(taken, 0);
+}
+
+using Counts = std::array<std::int64_t, 6>;
+
+std::string binary_record(int status, const Counts& counts) {
+  std::string out(1, static_cast<char>(status));
+  for (const std::int64_t c : counts) {
+    out += static_cast<char>(c >> 8);
+    out += static_cast<char>(c);
+  }
+  return out;
+}
+
+/// Counts that tremble by a few, as a sensor's do.
+Counts trembling(Counts counts, std::mt19937& random) {
+  for (std::int64_t& c : counts) c += static_cast<std::int64_t>(random() % 9) - 4;
+  return counts;
+}
+
+TEST(AtiFrames, FindThePlaceAndGiveEachRecordFromThenOn) {
+  std::mt19937 random(4);
+  AtiFrames frames;
+  std::vector<Counts> said, given;
+  std::string bytes = "CD R\r\n>QS\r\n";
+  for (int n = 0; n < 100; ++n) {
+    said.push_back(trembling({192, -384, 0, 10560, -5, 7}, random));
+    bytes += binary_record(0, said.back());
+  }
+  for (const char byte : bytes)
+    if (const auto read = frames.push(static_cast<std::uint8_t>(byte))) given.push_back(read->counts);
+  ASSERT_GE(given.size(), 85U);
+  EXPECT_TRUE(std::equal(given.rbegin(), given.rend(), said.rbegin() + 1))
+      << "all that is given was said, without a gap";
+  EXPECT_EQ(frames.broken(), 0U);
+}
+
+TEST(AtiFrames, LostAndAddedBytesNeverMakeAForceThatNobodySaid) {
+  std::mt19937 random(11);
+  AtiFrames frames;
+  Counts around{};
+  int given = 0;
+  std::array<Counts, 4> last{};
+  for (int n = 0; n < 200'000; ++n) {
+    if (n % 50 == 0)
+      for (std::int64_t& c : around) c = static_cast<std::int64_t>(random() % 4000) - 2000;
+    if (random() % 3 == 0) around[random() % 6] = 0;  // small forces are where a slipped frame hides
+    last = {last[1], last[2], last[3], trembling(around, random)};
+    std::string record = binary_record(0, last[3]);
+    if (random() % 40 == 0) record.erase(random() % record.size(), 1 + random() % 3);
+    if (random() % 40 == 0) record.insert(random() % record.size(), 1 + random() % 3, static_cast<char>(random() % 3));
+    for (const char byte : record) {
+      const auto read = frames.push(static_cast<std::uint8_t>(byte));
+      if (!read) continue;
+      ++given;
+      std::int64_t off = 1 << 20;
+      for (const Counts& said : last) {
+        std::int64_t worst = 0;
+        for (std::size_t i = 0; i < 6; ++i) worst = std::max(worst, std::abs(read->counts[i] - said[i]));
+        off = std::min(off, worst);
+      }
+      ASSERT_LE(off, AtiFrames::kStep) << "record " << n;
+    }
+  }
+  EXPECT_GT(given, 20'000);
+  EXPECT_GT(frames.broken(), 1'000U);
+}
+
+TEST(AtiFrames, AMillionRandomBytesAreNoRecord) {
+  std::mt19937 random(7);
+  AtiFrames frames;
+  int taken = 0;
+  for (int n = 0; n < 1'000'000; ++n) taken += frames.push(static_cast<std::uint8_t>(random())) ? 1 : 0;
   EXPECT_EQ(taken, 0);
 }
 
@@ -202,19 +313,22 @@ class FakeController {
             continue;
           }
           streams = heard == "QS";
+          if (heard == "CD A" || heard == "CD B") binary_ = heard == "CD B";
           put(heard + "\r\n>");
           heard.clear();
         }
       }
       if (restart.exchange(false)) streams = false, put("ATI F/T controller\r\n>");
       if (!streams) continue;
-      put(std::to_string(status) + ", " + std::to_string(counts) + ",  -384,     0,     0,     0,     7\r\n");
+      put(binary_ ? binary_record(status, trembling({counts, -384, 0, 0, 0, 7}, random_))
+                  : std::to_string(status) + ", " + std::to_string(counts) + ",  -384,     0,     0,     0,     7\r\n");
       ++sent;
     }
   }
   int port_;
   std::string name_ = {};
   std::mt19937 random_{3};
+  bool binary_ = false;
   std::thread thread_;
 };
 
@@ -238,6 +352,36 @@ TEST(AtiSerial, LostBytesAndNoiseCostLinesAndNeverTheirNeighbours) {
   ASSERT_TRUE(soon([&] { return sensor.link().begun >= 2 && sensor.sample(Vec3::Zero()).valid; }))
       << "asked to begin anew";
   ASSERT_TRUE(soon([&] { return (sensor.sample(Vec3::Zero()).force - Vec3(1, -2, 0)).norm() < 1e-12; }));
+}
+
+TEST(AtiSerial, BinaryRecordsBecomeNewtonsAndSlipsCostThemselvesOnly) {
+  FakeController controller;
+  AtiSerial sensor(controller.name(), nano25_options(), AtiRecords::kBinary);
+  const auto near = [](const ForceSample& s) { return (s.force - Vec3(1, -2, 0)).norm() < 0.05; };  // it trembles
+  ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
+  EXPECT_TRUE(near(sensor.sample(Vec3::Zero())));
+  controller.loses_bytes = true;
+  ASSERT_TRUE(soon([&] {
+    const ForceSample sample = sensor.sample(Vec3::Zero());
+    EXPECT_TRUE(!sample.valid || near(sample)) << sample.force.transpose();
+    return sensor.link().malformed >= 8;
+  }));
+  controller.loses_bytes = false;
+  controller.noise = true;
+  ASSERT_TRUE(soon([&] {
+    const ForceSample sample = sensor.sample(Vec3::Zero());
+    EXPECT_TRUE(!sample.valid || near(sample)) << sample.force.transpose();
+    return sensor.link().malformed >= 14;
+  }));
+  controller.noise = false;
+  ASSERT_TRUE(soon([&] { return sensor.sample(Vec3::Zero()).valid; }));
+  controller.status = 2;
+  ASSERT_TRUE(soon([&] { return !sensor.sample(Vec3::Zero()).valid; })) << "saturated";
+  controller.status = 0;
+  const auto begun = sensor.link().begun;
+  controller.restart = true;
+  ASSERT_TRUE(soon([&] { return sensor.link().begun > begun && sensor.sample(Vec3::Zero()).valid; }));
+  EXPECT_TRUE(near(sensor.sample(Vec3::Zero())));
 }
 
 TEST(AtiSerial, WhatIsNoSensorIsRefusedWithTheReason) {
