@@ -33,6 +33,16 @@ CLI::Validator file_name() {
       "FILE");
 }
 
+void add_device_file_options(CLI::App& command, std::filesystem::path& calibration, std::filesystem::path& device) {
+  command
+      .add_option("--calibration", calibration, "Amplifier gains and offsets from device calibrate (default: nominal)")
+      ->check(file_name());
+  command
+      .add_option("--device", device,
+                  "Device file: weights and friction from device identify, pinch, homing and marks (default: nominal)")
+      ->check(file_name());
+}
+
 void add_tissue_option(CLI::App& command, std::string& tissue) {
   command
       .add_option("--tissue", tissue,

@@ -4,6 +4,7 @@
 // Only sources see CLI11.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -34,9 +35,14 @@ CLI::Validator seed_range();
 constexpr const char* kCardForms =
     "Of --backend hostmot2: address of the card (default: 192.168.1.121); of mc4000: the boards' folders in "
     "/sys/bus/pci/devices or their /dev/uio, with a comma";
-constexpr const char* kSensorForms = "A real force sensor at the stylus: net-ft:ADDRESS or serial:/dev/ttyUSB0";
+constexpr const char* kSensorForms =
+    "A real force sensor at the stylus: net-ft:ADDRESS, serial:/dev/ttyUSB0 or "
+    "serial-binary:/dev/ttyUSB0";
 constexpr const char* kOrganForms =
     "NAME.organ.toml, NAME.scene.toml (#ORGAN behind it: another subject) or a shipped organ";
+
+/// --calibration and --device, as read_device_files() takes them.
+void add_device_file_options(CLI::App& command, std::filesystem::path& calibration, std::filesystem::path& device);
 
 /// --tissue: one of kTissueWords, empty unless given.
 void add_tissue_option(CLI::App& command, std::string& tissue);

@@ -109,6 +109,10 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   if (!options.screens.empty()) return picture_screens(options, out);
   InterruptWatch interrupt;  // before the model starts a thread: it must inherit what is blocked
   PracticeModel model(options.model, find_assets());
+  if (const std::string& on = options.model.backend; !on.empty() && is_real_device(on))
+    for (const std::string& doubt :
+         device_doubts(read_device_files(options.model.calibration, options.model.device), on))
+      err << "trocar: " << doubt << '\n';
   // Told now, not after the first exercise.
   if (model.database() != ":memory:") {
     const Database database(model.database(), OpenMode::kExisting);
@@ -163,6 +167,7 @@ void add_practice(CLI::App& parent, CommandAction& chosen) {
           {kSimulatedBackend, kHostmot2Backend, kFakeHostmot2Backend, kMc4000Backend, kEmulatedMc4000Backend}));
   practice->add_option("--card", o.model.card, kCardForms);
   practice->add_option("--sensor", o.model.force_sensor, kSensorForms);
+  add_device_file_options(*practice, o.model.calibration, o.model.device);
   practice->add_option("--organ", o.model.organ, kOrganForms)->capture_default_str();
   add_tissue_option(*practice, o.model.tissue);
   practice->add_option("--db", o.model.database, "Database file, or :memory:, which keeps nothing")

@@ -68,7 +68,7 @@ TEST_F(Faults, EveryInjectedStopNamesItsCauseItsTimeAndWhatToDo) {
     EXPECT_GE(fault["first_s"].get<double>(), 1.4999);
     EXPECT_LE(fault["first_s"].get<double>(), row.latest_s);
     EXPECT_NE(outcome.err.find(std::string("device fault ") + row.cause), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("; then reset, home"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("; then put the stylus into its jig and start again"), std::string::npos) << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(folder_ / json["attempt"]["safety_log"].get<std::string>()));
   }
 }

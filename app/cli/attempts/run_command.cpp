@@ -171,6 +171,7 @@ AttemptSetup attempt_setup(const RunOptions& options, const AssetRoots& assets) 
   setup.card = options.card;
   setup.force_sensor = options.force_sensor;
   setup.rate_hz = options.rate_hz;
+  require_scripted(setup);
   setup.contact_law = one_of<ContactLaw>("--contact", options.contact_law,
                                          {{"proxy", ContactLaw::kProxy}, {"thesis", ContactLaw::kThesis}});
   std::map<std::string, PassivityLaw> laws;
@@ -322,11 +323,7 @@ void add_run(CLI::App& parent, CommandAction& chosen) {
   run->add_option("--contact", o.contact_law, "Contact law: proxy, or thesis as baseline")->capture_default_str();
   run->add_option("--passivity", o.passivity_law, "Passivity law: budgeted, increment or off")->capture_default_str();
   run->add_flag("--clamp", o.clamp, "Weaken contacts stiffer than K_max, what the device can display, to it");
-  run->add_option("--calibration", o.calibration,
-                  "Amplifier gains and offsets from device calibrate (default: nominal)")
-      ->check(file_name());
-  run->add_option("--device", o.device, "Weights and friction from device identify (default: nominal)")
-      ->check(file_name());
+  add_device_file_options(*run, o.calibration, o.device);
   run->add_option("--inject", o.injections,
                   "Device fault KIND[:CHANNEL[:VALUE]]@SECONDS[+DURATION], repeatable: encoder-jump, encoder-stuck, "
                   "channel-invalid, dac-stuck, missed-sync, delay, sensor-silence, watchdog, e-stop, deadman-open, "

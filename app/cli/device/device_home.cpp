@@ -1,24 +1,26 @@
 #include "app/cli/device/device_home.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
-#include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/command.h"
+#include "app/cli/device/device_lanes.h"
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/true_plant.h"
 #include "haptics/device/backends/homing_operator.h"
 #include "haptics/device/transmission.h"
+#include "haptics/exchange/latest.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/input_error.h"
 #include "haptics/kinematics/device_geometry.h"
@@ -73,49 +75,42 @@ class HomeBench {
     if (backend_.world) person_ = std::make_unique<HomingOperator>(*backend_.world, options.seed);
   }
 
-  HomeOutcome home(std::ostream& out) {
-    HomeOutcome outcome;
-    std::string said;
-    const auto begun = std::chrono::steady_clock::now();
-    const auto most = static_cast<long>(options_.limit_s * kHomeRateHz);
-    long n = 0;
-    for (; n < most && !(options_.interrupted && options_.interrupted()); ++n) {
-      const StylusState& s = tick(outcome);
-      if (!person_) std::this_thread::sleep_until(begun + std::chrono::microseconds(1000 * (n + 1)));
-      const HomingWords words = homing_words(s.loop, s.homing);
-      const std::string now = s.loop == LoopState::kSelfTest ? "Self-test: leave it alone; the deadman open."
-                                                             : std::string(words.title) + ". " + words.hint;
-      const bool begun_now = s.loop == LoopState::kUnhomed && s.homing.step == HomingStep::kNone;
-      if (now != said && s.loop != LoopState::kHomed && s.loop != LoopState::kFault && !begun_now) {
-        said = now;
-        outcome.steps.push_back(now + (homing_detail(s.homing).empty() ? "" : " (" + homing_detail(s.homing) + ")"));
-        if (!options_.json)
-          out << std::fixed << std::setprecision(1) << std::setw(7) << s.t_s << " s  " << outcome.steps.back()
-              << std::endl;
-      }
-      if (s.homing.trouble != HomingTrouble::kNone) outcome.report = s.homing;
-      if (s.loop == LoopState::kHomed || s.loop == LoopState::kFault) break;
-    }
+  /// One period. @return whether the homing goes on.
+  bool tick() {
+    exchange();
+    ++ticks_;
     const StylusState& s = record_.stylus;
-    outcome.seconds = static_cast<double>(n) / kHomeRateHz;
-    outcome.homed = s.loop == LoopState::kHomed;
-    if (s.fault) outcome.fault = fault_name(s.fault.code);
-    if (!outcome.homed) {
-      if (s.homing.trouble != HomingTrouble::kNone || outcome.report.trouble == HomingTrouble::kNone)
-        outcome.report = s.homing;
-      return outcome;
-    }
-    outcome.report = s.homing;
-    outcome.marks = loop_.homing().marks();
-    outcome.offset = loop_.homing().offset();
-    for (int i = 0; i < kChannels; ++i) outcome.counts[i] = record_.in.counts[static_cast<std::size_t>(i)];
-    if (backend_.world) outcome.error = error();
-    return outcome;
+    if (s.homing.trouble != HomingTrouble::kNone) outcome_.report = s.homing;
+    const bool over = s.loop == LoopState::kHomed || s.loop == LoopState::kFault;
+    return !over && static_cast<double>(ticks_) < options_.limit_s * kHomeRateHz;
   }
+
+  /// As the homing stands now.
+  HomeOutcome outcome() const {
+    HomeOutcome out = outcome_;
+    const StylusState& s = record_.stylus;
+    out.seconds = static_cast<double>(ticks_) / kHomeRateHz;
+    out.homed = s.loop == LoopState::kHomed;
+    if (s.fault) out.fault = fault_name(s.fault.code);
+    if (out.homed || s.homing.trouble != HomingTrouble::kNone || out.report.trouble == HomingTrouble::kNone)
+      out.report = s.homing;
+    if (!out.homed) return out;
+    out.marks = loop_.homing().marks();
+    out.offset = loop_.homing().offset();
+    for (int i = 0; i < kChannels; ++i) out.counts[i] = record_.in.counts[static_cast<std::size_t>(i)];
+    if (backend_.world) out.error = error();
+    return out;
+  }
+
+  const StylusState& stylus() const { return record_.stylus; }
+  const Backend& backend() const { return backend_; }
 
   /// The stylus is taken out, and everything is forgotten but where the counters stand.
   void again(const DeviceModel& model) {
     loop_ = HapticLoop(loop_of(model));
+    record_ = {};
+    outcome_ = {};
+    ticks_ = 0;
     if (!backend_.world) return;
     JointVector out = JointVector::Zero();
     out[kArmJoints - 2] = 20 * kDegree;
@@ -145,15 +140,14 @@ class HomeBench {
     if (!options_.learn.empty()) config.safety.homing.jig_counts = config.safety.homing.roll_counts = 1e9;
     return config;
   }
-  const StylusState& tick(HomeOutcome& outcome) {
+  void exchange() {
     const DaqSample sample = backend_.daq->read();
     const DacFrame codes = loop_.tick(sample, *patch_, record_);
     const bool silent = std::all_of(codes.codes.begin(), codes.codes.end(), [](std::int32_t c) { return c == 0; });
-    outcome.torque_free = outcome.torque_free && silent && !record_.amplifiers_armed;
+    outcome_.torque_free = outcome_.torque_free && silent && !record_.amplifiers_armed;
     backend_.daq->arm(record_.amplifiers_armed);
     backend_.daq->write(codes);
     if (person_ && record_.stylus.loop == LoopState::kUnhomed) person_->follow(record_.stylus.homing);
-    return record_.stylus;
   }
   /// Of what the loop takes for its angles, against where the simulated arm truly is, counts.
   ChannelVector error() const {
@@ -173,13 +167,16 @@ class HomeBench {
   std::unique_ptr<ContactPatch> patch_;
   std::unique_ptr<HomingOperator> person_;
   TickRecord record_;
+  HomeOutcome outcome_;
+  long ticks_ = 0;
 };
 
 DeviceModel model_of(const HomeOptions& options) {
-  DeviceModel model = device_model(read_device_files({}, options.device));
-  model.homing.see_dark = true;  // a light that was never dark tells nothing
+  std::optional<HomingMethod> asked;
   for (std::size_t i = 0; i < kMethods.size(); ++i)
-    if (options.method == kMethods[i]) model.homing.method = static_cast<HomingMethod>(i);
+    if (options.method == kMethods[i]) asked = static_cast<HomingMethod>(i);
+  DeviceModel model = device_model(read_device_files({}, options.device), options.backend, asked);
+  model.homing.see_dark = true;  // a light that was never dark tells nothing
   return model;
 }
 
@@ -241,30 +238,143 @@ void write_marks(const HomeOptions& options, DeviceModel model, const std::vecto
   write_file(options.learn, device_toml(model, "Marks of the encoders, learnt in the jig by trocar device home."));
 }
 
+/// All that were asked for, the stylus out of the jig in between; with --learn each by the marks and once more by the
+/// light's edges.
+class Homings {
+ public:
+  Homings(const HomeOptions& options, HomeBench& bench, const DeviceModel& model)
+      : options_(options), bench_(bench), model_(model), by_edges_(model) {
+    by_edges_.homing.method = HomingMethod::kEdges;
+  }
+
+  /// One period. @return whether there is more to do.
+  bool tick() {
+    if (bench_.tick()) return true;
+    const HomeOutcome done = bench_.outcome();
+    if (!options_.learn.empty() && !marks_ && done.homed) {
+      marks_ = done;
+      bench_.again(by_edges_);
+      return true;
+    }
+    all_.push_back(done);
+    over_ = !done.homed || static_cast<int>(all_.size()) == options_.repeat;
+    if (marks_ && done.homed) places_.push_back(places_from_home(*marks_, done));
+    marks_.reset();
+    if (!over_) bench_.again(model_);
+    return !over_;
+  }
+  std::size_t number() const { return all_.size(); }
+
+  /// What was done, and the one that was cut off.
+  std::vector<HomeOutcome> end() {
+    if (!over_) all_.push_back(bench_.outcome());
+    if (!options_.learn.empty() && all_.back().homed) write_marks(options_, model_, places_);
+    return std::move(all_);
+  }
+
+ private:
+  const HomeOptions& options_;
+  HomeBench& bench_;
+  DeviceModel model_, by_edges_;
+  std::optional<HomeOutcome> marks_;  ///< of a homing by them, whose edges are still to be found
+  std::vector<HomeOutcome> all_;
+  std::vector<ChannelVector> places_;
+  bool over_ = false;
+};
+
+/// What is said on the way, each step once.
+class HomingSpeech {
+ public:
+  HomingSpeech(const HomeOptions& options, std::ostream& out)
+      : json_(options.json), out_(out), steps_(static_cast<std::size_t>(options.repeat)) {}
+
+  void hear(std::size_t homing, const StylusState& s) {
+    const HomingWords words = homing_words(s.loop, s.homing);
+    const std::string now = s.loop == LoopState::kSelfTest ? "Self-test: leave it alone; the deadman open."
+                                                           : std::string(words.title) + ". " + words.hint;
+    const bool begun_now = s.loop == LoopState::kUnhomed && s.homing.step == HomingStep::kNone;
+    const bool nothing = s.loop == LoopState::kOff || s.loop == LoopState::kHomed || s.loop == LoopState::kFault;
+    if (homing >= steps_.size() || now == said_ || nothing || begun_now) return;
+    said_ = now;
+    const std::string detail = homing_detail(s.homing);
+    steps_[homing].push_back(now + (detail.empty() ? "" : " (" + detail + ")"));
+    if (!json_)
+      out_ << std::fixed << std::setprecision(1) << std::setw(7) << s.t_s << " s  " << steps_[homing].back()
+           << std::endl;
+  }
+  const std::vector<std::string>& steps(std::size_t homing) const { return steps_[homing]; }
+
+ private:
+  bool json_;
+  std::ostream& out_;
+  std::string said_;
+  std::vector<std::vector<std::string>> steps_;
+};
+
+/// A moment of a homing, from the loop's thread to the one that speaks.
+struct HomingMoment {
+  std::size_t number = 0;
+  StylusState stylus;
+};
+
+class HomingLoopTask final : public Task {
+ public:
+  HomingLoopTask(Homings& homings, const HomeBench& bench, Latest<HomingMoment>& newest)
+      : homings_(homings), bench_(bench), newest_(newest) {}
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t) override {
+    const std::size_t number = homings_.number();
+    over_ = !homings_.tick();
+    newest_.write({number, bench_.stylus()});
+  }
+  bool finished() const override { return over_; }
+
+ private:
+  Homings& homings_;
+  const HomeBench& bench_;
+  Latest<HomingMoment>& newest_;
+  bool over_ = false;
+};
+
+class HomingSpeechTask final : public Task {
+ public:
+  HomingSpeechTask(HomingSpeech& speech, Latest<HomingMoment>& newest) : speech_(speech), newest_(newest) {}
+  std::uint32_t period() const override { return 20; }
+  void run(std::uint64_t) override {
+    const HomingMoment& now = newest_.read();
+    speech_.hear(now.number, now.stylus);
+  }
+
+ private:
+  HomingSpeech& speech_;
+  Latest<HomingMoment>& newest_;
+};
+
 }  // namespace
 
 std::vector<HomeOutcome> home_device(const HomeOptions& options, std::ostream& out) {
-  DeviceModel model = model_of(options);
-  const bool learns = !options.learn.empty();
-  if (learns && model.homing.method != HomingMethod::kIndex)
+  const DeviceModel model = model_of(options);
+  if (!options.learn.empty() && model.homing.method != HomingMethod::kIndex)
     throw InputError("--learn: needs --method index, and encoders whose index is wired");
   HomeBench bench(options, model);
-  DeviceModel by_edges = model;
-  by_edges.homing.method = HomingMethod::kEdges;
-  std::vector<HomeOutcome> all;
-  std::vector<ChannelVector> places;
-  for (int k = 0; k < options.repeat; ++k) {
-    if (k > 0) bench.again(model);
-    all.push_back(bench.home(out));
-    if (!all.back().homed) return all;
-    if (!learns) continue;
-    const HomeOutcome marks = all.back();
-    bench.again(by_edges);
-    all.back() = bench.home(out);
-    if (!all.back().homed) return all;
-    places.push_back(places_from_home(marks, all.back()));
+  Homings homings(options, bench, model);
+  HomingSpeech speech(options, out);
+  if (bench.backend().world) {
+    bool more = true;
+    while (more && !(options.interrupted && options.interrupted())) {
+      const std::size_t number = homings.number();
+      more = homings.tick();
+      speech.hear(number, bench.stylus());
+    }
+  } else {
+    Latest<HomingMoment> newest;
+    HomingLoopTask loop(homings, bench, newest);
+    HomingSpeechTask said(speech, newest);
+    run_device_lanes(bench.backend(), kHomeRateHz, loop, said, options.interrupted);
   }
-  if (learns) write_marks(options, model, places);
+  std::vector<HomeOutcome> all = homings.end();
+  for (std::size_t k = 0; k < all.size() && k < static_cast<std::size_t>(options.repeat); ++k)
+    all[k].steps = speech.steps(k);
   return all;
 }
 

@@ -16,9 +16,8 @@
 
 #include "app/cli/attempts/run_command.h"
 #include "app/cli/command.h"
+#include "app/cli/device/device_lanes.h"
 #include "app/session/interrupt.h"
-#include "app/session/lanes/real_time.h"
-#include "app/session/lanes/threaded_executor.h"
 #include "app/session/setup/device_files.h"
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/exchange/latest.h"
@@ -70,7 +69,7 @@ class Bench {
   static HapticLoopConfig loop_of(const MonitorOptions& options, const DaqCapabilities& daq) {
     HapticLoopConfig config;
     config.daq = daq;
-    config.device = device_model(read_device_files(options.calibration, options.device));
+    config.device = device_model(read_device_files(options.calibration, options.device), options.backend);
     return config;
   }
 
@@ -221,17 +220,10 @@ class LinesTask final : public Task {
 
 /// A device with a clock of its own: at its rate, as a run would be.
 int watch_device(const MonitorOptions& options, Bench& bench, long lines, std::ostream& out, std::ostream& err) {
-  constexpr int kLoopFifoPriority = 80;
   const auto newest = std::make_unique<Latest<TickRecord>>();
   BenchTask loop(bench, *newest);
   LinesTask shown(options, *newest, lines, out);
-  ThreadedExecutor executor(options.rate_hz);
-  executor.add_lane("haptic", {&loop}, kLoopFifoPriority);
-  executor.pace_by(bench.backend().await_sync);
-  executor.pin(isolated_processor());
-  executor.add_own_lane("lines", {&shown});
-  executor.run(options.interrupted);
-  const LaneReport& report = *executor.reports().front();
+  const LaneReport report = run_device_lanes(bench.backend(), options.rate_hz, loop, shown, options.interrupted);
   err << "trocar: " << options.backend << " looked at for " << std::fixed << std::setprecision(1) << report.seconds
       << " s at " << report.rate_hz() << " Hz, " << report.policy << ", " << report.missed
       << " periods missed; its amplifiers stayed off\n";
@@ -292,9 +284,7 @@ void add_device_monitor(CLI::App& parent, CommandAction& chosen) {
       ->capture_default_str()
       ->check(CLI::Range(0.1, 86400.0));
   monitor->add_flag("--lockstep", o.lockstep, "As fast as it goes instead of by the clock");
-  monitor->add_option("--calibration", o.calibration, "Amplifier gains and offsets from device calibrate")
-      ->check(file_name());
-  monitor->add_option("--device", o.device, "Weights and friction from device identify")->check(file_name());
+  add_device_file_options(*monitor, o.calibration, o.device);
   monitor->add_flag("--json", o.json, "A JSON object a line");
   monitor->add_option("--seed", o.seed, "Of the simulated device")->capture_default_str()->check(seed_range());
   monitor->add_option("--rate", o.rate_hz, "Loop rate, Hz")

@@ -4,7 +4,7 @@
 // truth is measured; a real one is paced by the clock. Thread: one.
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <iomanip>
@@ -12,12 +12,12 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/device/device_lanes.h"
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/true_plant.h"
@@ -60,40 +60,46 @@ class PinchBench {
     if (!backend_.world) return;
     rest_ = backend_.world->sense();
     goal_ = rest_.jaw_opening_m;
-    for (int k = 0; k < 100; ++k) tick(true);  // the jig opens; codes are zero
+    for (int k = 0; k < 100; ++k) exchange(true);  // the jig opens; codes are zero
   }
   ~PinchBench() {
     backend_.daq->write({});
     backend_.daq->arm(false);
   }
 
-  /// Mean count where it is held. Empty: not found in time.
-  std::optional<double> find(const PinchPoint& point, const std::optional<double>& last) {
-    double sum = 0;
-    long held = 0;
-    std::int32_t from = count_;
-    const auto begun = std::chrono::steady_clock::now();
-    for (long n = 0; n < static_cast<long>(options_.limit_s * kPinchRateHz) && !interrupt_.seen(); ++n) {
-      move(point);
-      tick(backend_.world != nullptr);
-      if (!backend_.world) std::this_thread::sleep_until(begun + std::chrono::microseconds(1000 * (n + 1)));
-      const bool rests = std::abs(count_ - from) <= options_.noise + 1;
-      const bool elsewhere = !last || std::abs(count_ - *last) >= kMoved;
-      if (!rests || !elsewhere) {
-        from = count_;
-        held = 0, sum = 0;
-        continue;
-      }
-      sum += count_, ++held;
-      if (static_cast<double>(held) >= kHeld_s * kPinchRateHz) return sum / static_cast<double>(held);
+  /// One period. @return whether there is still something to look for.
+  bool tick() {
+    const PinchPoint& point = kPoints[at()];
+    move(point);
+    exchange(backend_.world != nullptr);
+    const bool rests = std::abs(count_ - from_) <= options_.noise + 1;
+    const bool elsewhere = at() == 0 || std::abs(count_ - counts_[at() - 1]) >= kMoved;
+    if (rests && elsewhere) {
+      sum_ += count_, ++held_;
+    } else {
+      from_ = count_;
+      held_ = 0, sum_ = 0;
     }
-    return std::nullopt;
+    if (static_cast<double>(held_) < kHeld_s * kPinchRateHz)
+      return static_cast<double>(++waited_) < options_.limit_s * kPinchRateHz;
+    counts_[at()] = sum_ / static_cast<double>(held_);
+    truth_[at()] = truth();
+    from_ = count_;
+    waited_ = held_ = 0, sum_ = 0;
+    return ++at_ < kPoints.size();
   }
+
+  /// The point that is looked for; behind the last one: all are found. Any thread.
+  std::size_t at() const { return at_.load(std::memory_order_relaxed); }
+  /// Mean count where each is held.
+  const std::array<double, kPoints.size()>& counts() const { return counts_; }
+  const std::array<std::optional<double>, kPoints.size()>& truths() const { return truth_; }
+  const Backend& backend() const { return backend_; }
+
+ private:
   std::optional<double> truth() const {
     return backend_.world ? std::optional(backend_.world->sense().jaw_opening_m) : std::nullopt;
   }
-
- private:
   static BackendOptions made(const PinchCommand& o) {
     BackendOptions out;
     out.card = o.card;
@@ -110,7 +116,7 @@ class PinchBench {
                                             : options_.travel_m + kBeyond_m;
     goal_ += std::clamp(to - goal_, -2e-5, 2e-5);  // 20 mm/s
   }
-  void tick(bool armed) {
+  void exchange(bool armed) {
     if (backend_.world) backend_.world->set_hand_intent(rest_.X_BS, goal_);
     count_ = backend_.daq->read().counts[kPinchChannel];
     backend_.daq->arm(armed);
@@ -118,28 +124,64 @@ class PinchBench {
   }
 
   const PinchCommand& options_;
-  InterruptWatch interrupt_;
   Backend backend_;
   HandSense rest_;
   double goal_ = 0;
-  std::int32_t count_ = 0;
+  std::int32_t count_ = 0, from_ = 0;
+  double sum_ = 0;
+  long held_ = 0, waited_ = 0;
+  std::atomic<std::size_t> at_ = 0;
+  std::array<double, kPoints.size()> counts_{};
+  std::array<std::optional<double>, kPoints.size()> truth_{};
+};
+
+/// Says what is to be done, once a point.
+class PinchPrompts final : public Task {
+ public:
+  PinchPrompts(const PinchCommand& options, const PinchBench& bench, std::ostream& out)
+      : json_(options.json), bench_(bench), out_(out) {}
+  std::uint32_t period() const override { return 20; }
+  void run(std::uint64_t) override {
+    for (; said_ <= bench_.at() && said_ < kPoints.size(); ++said_)
+      if (!json_) out_ << kPoints[said_].words << std::endl;
+  }
+
+ private:
+  bool json_;
+  const PinchBench& bench_;
+  std::ostream& out_;
+  std::size_t said_ = 0;
+};
+
+class PinchLoopTask final : public Task {
+ public:
+  explicit PinchLoopTask(PinchBench& bench) : bench_(bench) {}
+  std::uint32_t period() const override { return 1; }
+  void run(std::uint64_t) override { over_ = !bench_.tick(); }
+  bool finished() const override { return over_; }
+
+ private:
+  PinchBench& bench_;
+  bool over_ = false;
 };
 
 int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& err) {
+  InterruptWatch interrupt;  // before a thread is started: it must inherit what is blocked
   PinchBench bench(options);
-  std::array<double, kPoints.size()> counts{};
-  std::array<std::optional<double>, kPoints.size()> truth;
-  std::optional<double> last;
-  for (std::size_t i = 0; i < kPoints.size(); ++i) {
-    if (!options.json) out << kPoints[i].words << std::endl;
-    last = bench.find(kPoints[i], last);
-    if (!last) {
-      err << "trocar: " << kPoints[i].words << ": not seen within " << options.limit_s << " s; it must rest for "
-          << kHeld_s << " s, and lie " << kMoved << " counts from the point before\n";
-      return kNotFound;
-    }
-    counts[i] = *last, truth[i] = bench.truth();
+  PinchPrompts prompts(options, bench, out);
+  PinchLoopTask loop(bench);
+  if (bench.backend().world) {
+    for (prompts.run(0); !loop.finished() && !interrupt.seen(); prompts.run(0)) loop.run(0);
+  } else {
+    run_device_lanes(bench.backend(), kPinchRateHz, loop, prompts, [&] { return interrupt.seen(); });
   }
+  if (bench.at() < kPoints.size()) {
+    err << "trocar: " << kPoints[bench.at()].words << ": not seen within " << options.limit_s << " s; it must rest for "
+        << kHeld_s << " s, and lie " << kMoved << " counts from the point before\n";
+    return kNotFound;
+  }
+  const auto& counts = bench.counts();
+  const auto& truth = bench.truths();
   const double span = counts[1] - counts[0];
   if (span < 0)
     throw InputError("the pinch counts down as it opens (" + std::to_string(std::lround(counts[0])) + " to " +

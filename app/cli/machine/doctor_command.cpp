@@ -26,6 +26,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/machine/doctor_probes.h"
 #include "app/picture/gl/headless_context.h"
 #include "app/session/lanes/real_time.h"
 #include "app/session/setup/scene.h"
@@ -87,8 +88,23 @@ std::string assets() {
          roots.exercises.string();
 }
 
+/// The folder of a file, or the nearest above it that is there.
+fs::path nearest_folder(const fs::path& file) {
+  fs::path folder = file.parent_path();
+  std::error_code error;
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+std::string not_writable(const fs::path& place) {
+  return place.string() + ": is not writable; give another place by --db FILE or XDG_DATA_HOME";
+}
+
 std::string database(const fs::path& file) {
   const auto schema = schema_of_file(file);
+  const fs::path folder = nearest_folder(file);
+  for (const fs::path& place : {schema ? file : folder, folder})  // beside it lie its log and the recordings
+    if (access(place.c_str(), W_OK) != 0) throw EnvironmentError(not_writable(place));
   if (!schema) return file.string() + ": not there yet, the first attempt makes it";
   const int known = shipped_migrations().back().version;
   std::string text = file.string() + ": schema " + std::to_string(*schema);
@@ -98,14 +114,11 @@ std::string database(const fs::path& file) {
 
 /// Room where the database and its recordings lie, or will.
 Finding disk_room(const fs::path& file) {
-  fs::path folder = file.parent_path();
+  const fs::path folder = nearest_folder(file);
   std::error_code error;
-  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
   const fs::space_info space = fs::space(folder, error);
   if (error) return {"disk", State::kProblem, folder.string() + ": " + error.message()};
-  if (access(folder.c_str(), W_OK) != 0)
-    return {"disk", State::kProblem,
-            folder.string() + ": is not writable; give another place by --db FILE or XDG_DATA_HOME"};
+  if (access(folder.c_str(), W_OK) != 0) return {"disk", State::kProblem, not_writable(folder)};
   const double free = static_cast<double>(space.available) / kMiB;
   const auto minutes = static_cast<long long>(free / kBudgetMiBPerMinute);
   return {"disk", free < kLeastFreeMiB ? State::kProblem : State::kGood,
@@ -197,9 +210,18 @@ Finding governor() {
 
 Finding display() {
   const char *x = std::getenv("DISPLAY"), *wayland = std::getenv("WAYLAND_DISPLAY");
-  if (wayland && *wayland) return {"display", State::kGood, std::string("Wayland ") + wayland};
-  if (x && *x) return {"display", State::kGood, std::string("X ") + x};
-  return {"display", State::kWarning, "none: no window; trocar demo --headless, run and review work without"};
+  std::string silent;
+  if (wayland && *wayland) {
+    if (wayland_answers(wayland)) return {"display", State::kGood, std::string("Wayland ") + wayland};
+    silent = std::string("WAYLAND_DISPLAY=") + wayland;
+  }
+  if (x && *x) {
+    if (x_answers(x)) return {"display", State::kGood, std::string("X ") + x};
+    silent += (silent.empty() ? "DISPLAY=" : ", DISPLAY=") + std::string(x);
+  }
+  return {"display", State::kWarning,
+          (silent.empty() ? "none" : silent + ": nothing answers there") +
+              ": no window; trocar demo --headless, run and review work without"};
 }
 
 Finding locale() {
@@ -244,7 +266,25 @@ Finding serial_lines() {
           found + (closed ? ": sudo usermod -aG dialout $USER, and log in anew" : "")};
 }
 
-Finding boards() {
+/// Both boards that --card names, as the driver would need them.
+Finding named_boards(const std::string& card) {
+  const std::size_t comma = card.find(',');
+  if (comma == std::string::npos)
+    return {"boards", State::kProblem, card + ": two boards are expected, #0 first, with a comma: FOLDER,FOLDER"};
+  Finding found{"boards", State::kGood, ""};
+  for (const std::string& device : {card.substr(0, comma), card.substr(comma + 1)}) {
+    const BoardLook look = look_at_board(device);
+    if (!look.trouble.empty()) found.state = State::kProblem;
+    found.text +=
+        (found.text.empty() ? "" : "; ") +
+        (look.trouble.empty() ? device + ": there, bound to " + (look.driver.empty() ? "no driver" : look.driver)
+                              : look.trouble);
+  }
+  return found;
+}
+
+Finding boards(const std::string& card) {
+  if (names_boards(card)) return named_boards(card);
   bool closed = false;
   const std::string found = devices("/dev", "uio", closed);
   if (found.empty())
@@ -299,6 +339,7 @@ std::vector<Finding> findings(const DoctorOptions& options) {
   } catch (const std::exception& error) {
     no_file = error.what();
   }
+  const std::string mesa_card = names_boards(options.card) ? "" : options.card;
   std::vector<Finding> found{
       {"version", State::kGood,
        "trocar " TROCAR_VERSION ", database schema " + std::to_string(shipped_migrations().back().version)},
@@ -315,10 +356,10 @@ std::vector<Finding> findings(const DoctorOptions& options) {
       locale(),
       clock_state(),
       serial_lines(),
-      boards(),
-      card_network(options.card)};
+      boards(options.card),
+      card_network(mesa_card)};
   if (no_file.empty()) found.push_back(disk_room(file));
-  if (!options.card.empty()) found.push_back(needed("card", [&] { return card_words(options.card); }));
+  if (!mesa_card.empty()) found.push_back(needed("card", [&] { return card_words(mesa_card); }));
   if (!options.sensor.empty()) found.push_back(needed("sensor", [&] { return sensor_words(options.sensor); }));
   return found;
 }
@@ -351,7 +392,7 @@ void add_doctor(CLI::App& parent, CommandAction& chosen) {
   CLI::App* doctor = add_command(parent, "doctor", "What this machine offers, and what is missing", chosen,
                                  [given] { return doctor_command(*given, std::cout, std::cerr); });
   doctor->add_option("--db", o.database, "Database file");
-  doctor->add_option("--card", o.card, "Address of a Mesa card, to be asked too");
+  doctor->add_option("--card", o.card, "Address of a Mesa card, to be asked too; or the thesis' boards, FOLDER,FOLDER");
   doctor->add_option("--sensor", o.sensor, "A force sensor, net-ft:ADDRESS or serial:DEVICE, to be heard too");
   doctor->add_flag("--json", o.json, "As JSON");
 }

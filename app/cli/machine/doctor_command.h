@@ -9,7 +9,7 @@ namespace trocar {
 
 struct DoctorOptions {
   std::filesystem::path database;      ///< empty: the default path
-  std::string card = {}, sensor = {};  ///< to be asked too: address of a Mesa card; a force sensor as run takes it
+  std::string card = {}, sensor = {};  ///< to be asked too: card or boards, and a force sensor, as run takes them
   bool json = false;
 };
 

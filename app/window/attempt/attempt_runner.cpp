@@ -32,7 +32,7 @@ class Nowhere final : public RecordingSink {
 
 AttemptSetup paced(AttemptSetup setup, bool by_clock) {
   setup.realtime = by_clock;
-  if (setup.pace == PaceLimits{}) setup.pace = kSimulatedLivePace;
+  if (setup.pace == PaceLimits{} && !is_real_device(setup.backend)) setup.pace = kSimulatedLivePace;
   return setup;
 }
 

@@ -36,6 +36,7 @@ struct GivenUp {};
 struct DeviceCheck::Work {
   SimulatedDaqConfig device;
   CheckLimits limits;
+  std::string backend;
   std::atomic<bool> stop{false}, done{false};
   mutable std::mutex mutex;  // guards lines
   std::vector<Line> lines{{What::kBoard}, {What::kWeight}, {What::kFriction}, {What::kPassivity}};
@@ -152,7 +153,7 @@ void DeviceCheck::Work::bench() {
 
 void DeviceCheck::Work::board() {
   begin(What::kBoard);
-  SimulatedBench bench(device);
+  SimulatedBench bench(device, backend);
   const std::vector<BoardCheck> checks = check_board(bench);
   int failed = 0;
   std::string detail;
@@ -176,10 +177,11 @@ void DeviceCheck::Work::run() {
   done = true;
 }
 
-DeviceCheck::DeviceCheck(const SimulatedDaqConfig& device, const CheckLimits& limits)
+DeviceCheck::DeviceCheck(const SimulatedDaqConfig& device, const CheckLimits& limits, const std::string& backend)
     : work_(std::make_unique<Work>()) {
   work_->device = device;
   work_->limits = limits;
+  work_->backend = backend;
   work_->thread = std::thread([work = work_.get()] { work->run(); });
 }
 

@@ -4,7 +4,8 @@
 //   weight    half the sum of the forces on a hand that goes up and down the same way at the same speed, N
 //   friction  half their difference, along the way, N
 //   passivity a press into a wall of 150 N/m: what the contact force has given back beyond what it had taken, J
-// Found through the seam of the device, on the simulated one by a hand that is simulated too. Red: no exam.
+// Found on the simulated device by a hand that is simulated too; the board through the driver of its back-end. Red: no
+// exam. A real device has no such hand: its loop's self-test and homing are its check, as each attempt begins.
 // Thread: one of its own works, lines() may be asked from any.
 #pragma once
 
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/device/simulated_daq.h"
+#include "haptics/device/backends/make_backend.h"
 
 namespace trocar {
 
@@ -36,8 +37,9 @@ class DeviceCheck {
     std::string detail = {};  ///< of a failure, in English
   };
 
-  /// Begins at once.
-  explicit DeviceCheck(const SimulatedDaqConfig& device, const CheckLimits& limits = {});
+  /// Begins at once. @param backend a name that make_backend() knows, of one with the simulated device behind it.
+  explicit DeviceCheck(const SimulatedDaqConfig& device, const CheckLimits& limits = {},
+                       const std::string& backend = kSimulatedBackend);
   /// Gives up what still runs.
   ~DeviceCheck();
   DeviceCheck(const DeviceCheck&) = delete;

@@ -7,6 +7,7 @@
 #include "app/window/practice/practice_model.h"
 #include "app/window/ui/theme.h"
 #include "app/window/ui/ui.h"
+#include "haptics/device/backends/make_backend.h"
 
 namespace trocar {
 namespace {
@@ -227,7 +228,9 @@ std::optional<ScreenName> StartScreen::frame(Ui& ui, PracticeModel& model, doubl
   ui.gap(4);
   ui.marked(Mark::kInfo,
             model.at_pointer() ? w("Without a device: mouse, keyboard or pad. F1 help, Esc menu.")
-                               : w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu."),
+            : model.backend() == kSimulatedBackend
+                ? w("Device: simulated, loop at 1000 Hz. F1 help, Esc menu.")
+                : w("Device: {0}, loop at 1000 Hz. F1 help, Esc menu.", {model.backend()}),
             Ink::kDim);
   ui.gap(4);
   ui.heading(w("Teacher"));

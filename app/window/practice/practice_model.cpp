@@ -49,6 +49,7 @@ PracticeModel::PracticeModel(const ModelOptions& options, const AssetRoots& asse
   s.options = options;
   s.assets = assets;
   if (s.scripted()) s.trainee = kDemonstration;
+  s.device = read_device_files(options.calibration, options.device);
   s.check_names();
   s.exercises = list_exercises(assets.exercises);
   if (s.exercises.empty()) throw EnvironmentError(assets.exercises.string() + ": holds no exercise");
@@ -283,6 +284,12 @@ bool PracticeModel::State::at_pointer() const { return !scripted() && hand() != 
 
 bool PracticeModel::at_pointer() const { return state_->at_pointer(); }
 
+std::string PracticeModel::State::backend() const {
+  return at_pointer() ? kPointerBackend : options.backend.empty() ? kSimulatedBackend : options.backend;
+}
+
+std::string PracticeModel::backend() const { return state_->backend(); }
+
 std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;
   const auto at =
@@ -327,14 +334,12 @@ AttemptRequest PracticeModel::State::request(Exercise exercise, const std::strin
   out.setup.organ = organ;
   out.setup.tissue = tissue_of(out.setup.exercise);
   out.setup.hand = hand();
-  if (at_pointer())
-    out.setup.backend = kPointerBackend;
-  else if (!options.backend.empty())
-    out.setup.backend = options.backend;
+  out.setup.backend = backend();
+  if (!at_pointer()) out.setup.device = device;
   out.setup.card = options.card;
   out.setup.force_sensor = options.force_sensor;
   out.setup.realtime = true;
-  if (backend_abilities(out.setup.backend).pace) out.setup.pace = kSimulatedLivePace;
+  if (!is_real_device(out.setup.backend)) out.setup.pace = kSimulatedLivePace;
   out.trainee = scripted() ? kDemonstration : trainee;
   out.session = session;
   out.database = options.database;

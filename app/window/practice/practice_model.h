@@ -38,8 +38,9 @@ struct ModelOptions {
   std::string tissue = {};  ///< one of kTissueWords; empty: the exercise's
   std::string input = "auto";
   std::string backend = {};  ///< that input "device" means, as make_backend() knows it; empty: the simulated device
-  std::string card = {}, force_sensor = {};  ///< as AttemptSetup has them
-  std::filesystem::path settings = {};       ///< empty: settings_file()
+  std::string card = {}, force_sensor = {};             ///< as AttemptSetup has them
+  std::filesystem::path calibration = {}, device = {};  ///< as read_device_files() takes them
+  std::filesystem::path settings = {};                  ///< empty: settings_file()
   std::string hand = {};  ///< scripted hand in place of a person ("expert"): a demonstration, kept under that name
   std::optional<std::int64_t> seed = {};  ///< given: every attempt draws from it, but a person's exam
   std::optional<double> scale = {};       ///< given: this time only, whatever the settings say
@@ -119,6 +120,8 @@ class PracticeModel {
   std::string tissue() const;
   /// Will the next attempt be done at mouse, keys or pad, without a device?
   bool at_pointer() const;
+  /// Device of the next attempt, by its back-end's name.
+  std::string backend() const;
   /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.
   std::string locked() const;
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when

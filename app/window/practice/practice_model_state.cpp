@@ -92,6 +92,10 @@ std::string PracticeModel::State::recovered_words(const std::string& of) const {
 /// What the first attempt would stumble over. @throws InputError that names what there is.
 void PracticeModel::State::check_names() const {
   find_organ(options.organ, assets.assets);
+  AttemptSetup on;
+  if (!options.backend.empty()) on.backend = options.backend;
+  device_model(device, on.backend);
+  if (scripted()) require_scripted(on);
   if (scripted()) make_hand(options.hand, 0, assets.hands);
   if (scripted() && !options.trainee.empty())
     throw InputError("--trainee " + options.trainee +

@@ -27,6 +27,7 @@ std::int64_t attempt_seed(const std::optional<std::int64_t>& asked, bool scripte
 struct PracticeModel::State {
   ModelOptions options;
   AssetRoots assets;
+  DeviceFiles device;
   std::vector<Exercise> exercises;
   Settings settings, followed;  // as they are; as they were when they were last taken up
   Translator words;
@@ -72,6 +73,7 @@ struct PracticeModel::State {
   bool scripted() const { return !options.hand.empty(); }
   std::string hand() const;  // of the next attempt
   bool at_pointer() const;
+  std::string backend() const;  // of the next attempt
   bool counts(const AttemptSummary& attempt) const { return scripted() || !by_scripted_hand(attempt); }
   std::string recovered_words(const std::string& of) const;
   void check_names() const;

@@ -9,6 +9,7 @@
 #include "app/window/lessons/lesson_icons.h"
 #include "app/window/run/first_run_hints.h"
 #include "app/window/ui/button_row.h"
+#include "haptics/device/backends/make_backend.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/kinds/camera/camera_rules.h"
 #include "scenarios/kinds/kind.h"
@@ -90,7 +91,8 @@ std::string check_words(const Translator& w, const DeviceCheck::Line& line) {
 
 void BriefingScreen::load(PracticeModel& model) {
   const bool pointer = model.at_pointer();
-  if (!check_ && !pointer) check_ = std::make_unique<DeviceCheck>(SimulatedDaqConfig{}, limits_);
+  if (!check_ && !pointer && !is_real_device(model.backend()))
+    check_ = std::make_unique<DeviceCheck>(SimulatedDaqConfig{}, limits_, model.backend());
   if (!organ_.valid()) organ_ = std::async(std::launch::async, credit_of, model.organ, model.assets());
   if (credit_.empty() && organ_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) credit_ = organ_.get();
   const std::string now =
@@ -166,7 +168,14 @@ void BriefingScreen::hand(Ui& ui, PracticeModel& model) const {
     ui.text(w("No device is needed. F1 lists every key."), Ink::kDim);
     return;
   }
-  ui.heading(w("Device check: simulated device"));
+  const std::string device = model.backend();
+  if (is_real_device(device)) {
+    ui.heading(w("Device: {0}", {device}));
+    ui.text(w("It is checked as each attempt begins: self-test, then homing in its jig. No torque before both."));
+    return;
+  }
+  ui.heading(device == kSimulatedBackend ? w("Device check: simulated device")
+                                         : w("Device check: simulated device behind {0}", {device}));
   for (const DeviceCheck::Line& line : check_->lines())
     ui.marked(check_mark(line.state), check_words(w, line),
               line.state == DeviceCheck::State::kFailed ? Ink::kAlarm : Ink::kText);
@@ -174,7 +183,8 @@ void BriefingScreen::hand(Ui& ui, PracticeModel& model) const {
 
 std::optional<ScreenName> BriefingScreen::start(PracticeModel& model) {
   const Translator& w = model.words();
-  if (find_level(model.exercise(), model.level).exam && !model.at_pointer() && !check_->sound()) {
+  const bool checked = model.at_pointer() || is_real_device(model.backend()) || check_->sound();
+  if (find_level(model.exercise(), model.level).exam && !checked) {
     wrong_ = check_->finished() ? w("No exam on a device that fails its check. Other levels may be practised.")
                                 : w("An exam waits for the device check: try again in a moment.");
     return std::nullopt;

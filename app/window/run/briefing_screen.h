@@ -44,7 +44,7 @@ class BriefingScreen final : public Screen {
   std::optional<ScreenName> start(PracticeModel& model);
 
   CheckLimits limits_;
-  std::unique_ptr<DeviceCheck> check_;  ///< null: no device
+  std::unique_ptr<DeviceCheck> check_;  ///< null: no device, or a real one
   std::string shown_;                   ///< exercise and level that the texts below are of
   std::vector<LessonStep> steps_;
   std::vector<LessonLimit> rows_;

@@ -2,6 +2,9 @@
 #include "app/cli/attempts/check_command.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -9,6 +12,7 @@
 #include <sstream>
 
 #include "app/cli/machine/doctor_command.h"
+#include "app/cli/machine/doctor_probes.h"
 #include "app/cli/sweep/sweep_command.h"
 #include "haptics/input_error.h"
 #include "tests/app/cli/command_samples.h"
@@ -224,6 +228,69 @@ TEST(Doctor, TheRoomIsThatOfTheNearestFolderThatExists) {
   const TemporaryFolder folder;
   const Json disk = finding(Json::parse(doctor(folder / "a" / "b" / "t.db", true).out), "disk");
   EXPECT_CONTAINS(disk.at("text").get<std::string>(), " MiB free in " + folder.path().string() + ", about ");
+}
+
+/// State and text of a finding with this --card.
+Json card_finding(const std::string& card, const std::string& name) {
+  std::ostringstream out, err;
+  doctor_command({.database = ":memory:", .card = card, .json = true}, out, err);
+  return finding(Json::parse(out.str()), name);
+}
+
+TEST(Doctor, LooksAtBothBoardsThatTheCardNames) {
+  const TemporaryFolder folder;
+  const auto board = [&](const std::string& name, std::size_t bytes) {
+    std::filesystem::create_directories(folder / name);
+    folder.write(name + "/resource0", std::string(bytes, '\0'));
+    return (folder / name).string();
+  };
+  const std::string first = board("0000:03:00.0", 4096), second = board("0000:03:01.0", 4096);
+  std::filesystem::create_directory_symlink("/nowhere/uio_pci_generic", folder / "0000:03:01.0/driver");
+  const Json sound = card_finding(first + "," + second, "boards");
+  EXPECT_EQ(sound.at("state"), "ok") << sound;
+  EXPECT_CONTAINS(sound.at("text").get<std::string>(), first + ": there, bound to no driver; ");
+  EXPECT_CONTAINS(sound.at("text").get<std::string>(), second + ": there, bound to uio_pci_generic");
+  EXPECT_NE(card_finding(first + "," + second, "network").at("state"), "problem") << "two folders are no address";
+  const auto trouble = [&](const std::string& card) {
+    const Json found = card_finding(card, "boards");
+    EXPECT_EQ(found.at("state"), "problem") << found;
+    return found.at("text").get<std::string>();
+  };
+  EXPECT_CONTAINS(trouble(first), "two boards are expected");
+  EXPECT_CONTAINS(trouble(first + ",/nowhere/0000:09:00.0"), "/nowhere/0000:09:00.0: is not there; lspci -D");
+  EXPECT_CONTAINS(trouble("/dev/uio98,/dev/uio99"), "/dev/uio99: is not there; bind the board to uio_pci_generic");
+  EXPECT_CONTAINS(trouble(folder.path().string() + "," + second), "has no resource0");
+  EXPECT_CONTAINS(trouble(board("small", 16) + "," + second), "too few registers");
+}
+
+TEST(Doctor, TriesWhetherTheDisplayAnswers) {
+  for (const char* nobody : {":77", ":77.0", "", "0", ":", ":x", "localhost:59999", ":123456789012"})
+    EXPECT_FALSE(x_answers(nobody)) << nobody;
+  EXPECT_FALSE(wayland_answers("wayland-77"));
+  const TemporaryFolder folder;
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = "/tmp/trocar-display-" + std::to_string(::getpid());
+  name.copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_FALSE(wayland_answers(name)) << "a socket's file, and nobody behind it";
+  ASSERT_EQ(::listen(socket, 1), 0);
+  EXPECT_TRUE(wayland_answers(name));
+  ::close(socket);
+  std::filesystem::remove(name);
+}
+
+TEST(Doctor, ADatabaseNeedsAFolderThatCanBeWritten) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "closed");
+  std::filesystem::permissions(folder / "closed",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  const Json found = finding(Json::parse(doctor(folder / "closed" / "t.db", true).out), "database");
+  std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_all);
+  EXPECT_EQ(found.at("state"), "problem");
+  EXPECT_CONTAINS(found.at("text").get<std::string>(), "closed: is not writable; give another place");
 }
 
 using Seeds = std::pair<std::int64_t, std::int64_t>;

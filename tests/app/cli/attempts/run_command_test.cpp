@@ -175,5 +175,14 @@ TEST(RunCommand, AnUnknownHandIsRefusedBeforeAnythingIsStored) {
   EXPECT_FALSE(std::filesystem::exists(folder / "t.db"));
 }
 
+TEST(AttemptSetup, ADeviceThatAPersonHoldsIsRefusedBeforeItIsTouched) {
+  RunOptions run = options();
+  run.card = "127.0.0.1:9";
+  for (const char* held : {kHostmot2Backend, kMc4000Backend}) {
+    run.backend = held;
+    EXPECT_CONTAINS(message_of<InputError>([&] { attempt_setup(run, find_assets()); }), "no script moves it");
+  }
+}
+
 }  // namespace
 }  // namespace trocar::run_command_test

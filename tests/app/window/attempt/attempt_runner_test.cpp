@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "haptics/device/backends/make_backend.h"
+#include "haptics/device/hostmot2/fake_hostmot2.h"
 #include "haptics/input_error.h"
 #include "tests/app/window/attempt/runner_samples.h"
 
@@ -115,6 +117,20 @@ TEST(AttemptRunner, AnExamHasNoPause) {
   EXPECT_FALSE(run.pause(true));
   EXPECT_FALSE(run.paused());
   EXPECT_TRUE(run.pause(false));
+}
+
+/// A card that is there, as a real one is: nobody is patient with a loop that holds a motor.
+TEST(AttemptRunner, ARealDeviceKeepsTheLimitsOfARealDevice) {
+  SimulatedDaq device(FakeHostmot2::device_config({}));
+  FakeHostmot2 card(device, {}, hostmot2::standard_wiring());
+  AttemptRequest request = short_request(":memory:");
+  request.setup.backend = kHostmot2Backend;
+  request.setup.card = card.address();
+  AttemptRunner run(request, find_assets());
+  EXPECT_TRUE(run.scene().setup.pace == PaceLimits{});
+  EXPECT_TRUE(run.scene().loop.device.homing.see_dark);
+  EXPECT_FALSE(run.pause(true)) << "an arm cannot hang in the air";
+  run.abort();
 }
 
 TEST(AttemptRunner, ADeviceThatFailsEndsTheAttemptWithWhatWasRecorded) {

@@ -28,6 +28,15 @@ TEST(DeviceCheck, DrawnDevicesPassAndTheirNumbersAreSaid) {
   }
 }
 
+TEST(DeviceCheck, TheBoardIsThatOfItsBackEnd) {
+  const DeviceCheck check({}, {}, kEmulatedMc4000Backend);
+  ASSERT_TRUE(check.wait(300));
+  EXPECT_TRUE(check.sound()) << line(check, What::kBoard).detail;
+  const DeviceCheck none({}, {}, "mc5000");
+  ASSERT_TRUE(none.wait(300));
+  EXPECT_EQ(line(none, What::kBoard).state, State::kFailed) << "nothing else is looked at in its place";
+}
+
 TEST(DeviceCheck, TooMuchOfAnythingIsRed) {
   const DeviceCheck check({}, {.weight_n = 1e-6, .friction_n = 1e-6, .energy_j = 1e-3});
   ASSERT_TRUE(check.wait(300));

@@ -6,6 +6,7 @@
 #include "app/window/practice/screen_table.h"
 #include "app/window/run/briefing_screen.h"
 #include "app/window/ui/sparkline.h"
+#include "haptics/device/backends/make_backend.h"
 #include "scenarios/files/exercise_loader.h"
 #include "tests/app/window/pages/layout_check.h"
 #include "tests/app/window/pages/loop_bench.h"
@@ -144,6 +145,22 @@ TEST_F(LessonScreens, ResultsOfTheDeviceCheckStandInTheBriefingOfWhoHoldsOne) {
   for (const char* part : {"Weight left over: 0.", "Friction: 0.", "Passive contact: 0.", "checks passed"})
     EXPECT_TRUE(sees_part(part)) << part;
   EXPECT_FALSE(sees_part("waits"));
+}
+
+/// Nobody simulates a hand there: nothing is measured, and nothing is said of a simulated device.
+TEST_F(LessonScreens, ARealDeviceIsNamedAndCheckedAsTheAttemptBegins) {
+  ModelOptions options = bench_.options();
+  options.input = "device";
+  options.backend = kHostmot2Backend;
+  width_ = 1280, height_ = 720;
+  open(options);
+  go(ScreenName::kStart, 1);
+  EXPECT_TRUE(sees_part("Device: hostmot2, loop at 1000 Hz."));
+  go(ScreenName::kBriefing);
+  EXPECT_TRUE(sees("Device: hostmot2"));
+  EXPECT_TRUE(sees_part("It is checked as each attempt begins"));
+  EXPECT_FALSE(sees_part("simulated device"));
+  expect_laid_out(loop_->texts(), width_, height_, "briefing of a real device");
 }
 
 TEST_F(LessonScreens, WithoutADeviceTheBriefingSaysWhatMovesWhat) {

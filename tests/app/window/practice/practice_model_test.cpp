@@ -9,6 +9,7 @@
 
 #include "app/session/setup/recorded_scene.h"
 #include "app/window/pages/progress_screen.h"
+#include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/layout/board_numbers.h"
 #include "tests/app/window/pages/practice_bench.h"
@@ -59,6 +60,36 @@ TEST(PracticeModel, BeginsAsAGuestAtTheFirstExercise) {
   EXPECT_FALSE(model->result());
   EXPECT_TRUE(model->recording().empty());
   EXPECT_TRUE(model->notice.empty()) << model->notice;
+}
+
+TEST(PracticeModel, TheLoopKnowsItsDeviceFromTheFilesThatWereGiven) {
+  const PracticeBench bench;
+  ModelOptions options = bench.options();
+  options.input = "device";
+  options.backend = kEmulatedMc4000Backend;
+  options.device = bench.folder.write("jig.toml", "[homing]\nmethod = \"edges\"\nsee_dark = true\n");
+  auto model = bench.model(options);
+  EXPECT_EQ(model->backend(), kEmulatedMc4000Backend);
+  ASSERT_EQ(model->begin_attempt(), "");
+  const Scene& scene = model->running()->scene();
+  EXPECT_EQ(scene.loop.device.homing.method, HomingMethod::kEdges);
+  EXPECT_TRUE(scene.setup.device.identified);
+  model.reset();
+  options.input = "mouse";
+  model = bench.model(options);
+  ASSERT_EQ(model->begin_attempt(), "");
+  EXPECT_FALSE(model->running()->scene().setup.device.identified) << "there is no device to know of";
+}
+
+TEST(PracticeModel, BadDeviceFilesAndScriptsOnARealArmAreRefusedAtOnce) {
+  const PracticeBench bench;
+  ModelOptions options = bench.options();
+  options.device = bench.folder.write("bad.toml", "[homing]\nmethod = \"guess\"\n");
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { bench.model(options); }), "bad.toml");
+  options.device.clear();
+  options.backend = kHostmot2Backend;
+  options.hand = "expert";
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { bench.model(options); }), "no script moves it");
 }
 
 TEST(PracticeModel, SignsInByCodeAndSaysWhatIsWrongWithOne) {
