@@ -248,6 +248,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   if (hooks.board_answers) executor.await(hooks.board_answers);
   executor.pace_by(attempt.backend.await_sync);
   executor.pin(isolated_processor());
+  if (attempt.backend.daq->capabilities().motors) executor.keep_awake();
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   if (attempt.sensor) executor.add_lane("force-sensor", {&*attempt.sensor}, kSensorPriority, kTissueOffset);
   executor.add_lane("recorder", {&attempt.recorder}, 0);

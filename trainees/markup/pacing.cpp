@@ -160,6 +160,7 @@ std::optional<Pacing> parse_pacing(const std::string& realtime) {
   out.kernel = pacing_value<std::string>(json, "kernel").value_or("");
   out.kernel_realtime = pacing_value<bool>(json, "kernel_realtime").value_or(false);
   out.memory_locked = pacing_value<bool>(json, "memory_locked").value_or(false);
+  out.processors_awake = pacing_value<bool>(json, "processors_awake");
   out.processors = pacing_value<std::int64_t>(json, "processors").value_or(0);
   out.processor = pacing_value<std::int64_t>(lane, "processor");
   out.load = pacing_value<double>(json, "load");
@@ -188,6 +189,7 @@ std::vector<std::pair<std::string, std::string>> pacing_facts(const Pacing& p) {
   if (p.processors > 0 && p.load)
     out.emplace_back("Load", fixed_text(*p.load, 1) + " on " + std::to_string(p.processors) +
                                  (p.processors == 1 ? " processor" : " processors"));
+  if (p.processors_awake) out.emplace_back("Idle states", *p.processors_awake ? "kept away" : "allowed");
   if (p.processor) out.emplace_back("Kept on processor", std::to_string(*p.processor));
   return out;
 }

@@ -28,6 +28,7 @@ struct Pacing {
   std::string scheduler = {}, refused = {};  ///< that its thread had; why not the one asked for, "" where it had that
   std::string kernel = {};
   bool kernel_realtime = false, memory_locked = false;
+  std::optional<bool> processors_awake = {};  ///< kept out of idle states; none: not recorded
   std::int64_t processors = 0;
   std::optional<std::int64_t> processor = {};  ///< on which it was kept
   std::optional<double> load = {};             ///< mean of the last minute

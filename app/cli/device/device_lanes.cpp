@@ -11,6 +11,7 @@ LaneReport run_device_lanes(const Backend& backend, double rate_hz, Task& loop, 
   executor.add_lane("haptic", {&loop}, kLoopFifoPriority);
   executor.pace_by(backend.await_sync);
   executor.pin(isolated_processor());
+  executor.keep_awake();
   executor.add_own_lane("shown", {&shown});
   executor.run(interrupted);
   return *executor.reports().front();

@@ -200,6 +200,16 @@ Finding locked_memory() {
           text + ": a live loop could not lock its memory and may wait for a page: as for real-time"};
 }
 
+Finding idle_states() {
+  if (ProcessorsAwake().held()) return {"idle-states", State::kGood, "a live loop keeps the processors out of them"};
+  return {
+      "idle-states", State::kWarning,
+      std::string("/dev/cpu_dma_latency cannot be written: a live loop wakes up later where the processors rest; ") +
+          (in_container() ? "start the container with --device /dev/cpu_dma_latency"
+                          : "put KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", MODE=\"0660\" into "
+                            "/etc/udev/rules.d/99-trocar.rules, for the group of real-time")};
+}
+
 Finding governor() {
   const std::string now = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   if (now.empty()) return {"governor", State::kGood, "the processors' clock is not this system's to set"};
@@ -351,6 +361,7 @@ std::vector<Finding> findings(const DoctorOptions& options) {
       kernel(),
       real_time(),
       locked_memory(),
+      idle_states(),
       governor(),
       display(),
       locale(),

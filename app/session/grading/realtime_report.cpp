@@ -72,6 +72,7 @@ std::string realtime_json(const ThreadedExecutor& executor, std::uint64_t lost,
                         {"processors", std::thread::hardware_concurrency()},
                         {"load", load_of_last_minute()},
                         {"memory_locked", executor.memory_locked()},
+                        {"processors_awake", executor.processors_awake()},
                         {"lost_records", lost},
                         {"lanes", RunReportJson::object()}};
   for (const LaneReport* report : executor.reports()) json["lanes"][report->name] = lane(*report);

@@ -1,8 +1,8 @@
 // What a run says of its sensor, and a live one of its pacing: in the result under device.force_sensor and
 // device.realtime, and in words on stderr where something is missing.
 //
-// {"kernel", "kernel_realtime", "processors", "load", "memory_locked", "lost_records", "lanes": {NAME: {"policy",
-// "refused", "processor", "rate_hz", "wakes", "missed", "overruns", "longest_gap_ms", "late_us":
+// {"kernel", "kernel_realtime", "processors", "load", "memory_locked", "processors_awake", "lost_records", "lanes":
+// {NAME: {"policy", "refused", "processor", "rate_hz", "wakes", "missed", "overruns", "longest_gap_ms", "late_us":
 // {"p50","p90","p99","p99.9","p99.99","max","above_1ms"}, "period_us": {...}, "cpu_us": {...}}}, and only where the run
 // stood still "pauses": [{"at_s", "seconds"}]; "clocks": {"program_s", "kernel_s", "worst", "slept_s"}}. "refused" and
 // "processor" stand only where something was refused, or the lane was kept on one. The first lane, the loop's, has

@@ -1,14 +1,17 @@
 #include "app/session/lanes/real_time.h"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
@@ -53,6 +56,16 @@ MemoryLock::MemoryLock() {
 }
 MemoryLock::~MemoryLock() {
   if (held()) ::munlockall();
+}
+
+ProcessorsAwake::ProcessorsAwake() : file_(::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
+  const std::int32_t microseconds = 0;
+  if (file_ < 0 || ::write(file_, &microseconds, sizeof microseconds) == sizeof microseconds) return;
+  ::close(file_);
+  file_ = -1;
+}
+ProcessorsAwake::~ProcessorsAwake() {
+  if (held()) ::close(file_);
 }
 
 std::string become_real_time(int priority) {

@@ -1,7 +1,8 @@
 // What the operating system gives a thread that must be on time, asked for and honestly reported.
 //
-// SCHED_FIFO needs a privilege (rtprio in limits.conf, or root), mlockall a limit (memlock). Without them the run goes
-// on as ordinary threads with the timer slack of 1 ns that anybody may have, and says so.
+// SCHED_FIFO needs a privilege (rtprio in limits.conf, or root), mlockall a limit (memlock), processors kept awake the
+// right to write /dev/cpu_dma_latency. Without them the run goes on as ordinary threads with the timer slack of 1 ns
+// that anybody may have, and says so.
 #pragma once
 
 #include <string>
@@ -33,6 +34,20 @@ class MemoryLock {
 
  private:
   std::string refusal_;
+};
+
+/// While it lives no processor enters an idle state that it would have to wake up from first (the kernel's power
+/// management quality of service, latency 0).
+class ProcessorsAwake {
+ public:
+  ProcessorsAwake();
+  ~ProcessorsAwake();
+  ProcessorsAwake(const ProcessorsAwake&) = delete;
+  ProcessorsAwake& operator=(const ProcessorsAwake&) = delete;
+  bool held() const { return file_ >= 0; }
+
+ private:
+  int file_ = -1;
 };
 
 /// Asks SCHED_FIFO for the calling thread (priority 0: none asked), least timer slack, and touches its stack.

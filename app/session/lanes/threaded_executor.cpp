@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "app/session/lanes/real_time.h"
@@ -37,6 +38,7 @@ struct ThreadedExecutor::Lane {
   int priority = 0;
   std::int64_t period_ns = 0, offset_ns = 0;
   std::int64_t wished_ns = 0, last_ns = 0;  // next wake, and when the one before was
+  std::int64_t served_ns = 0;               // wished time of the one before
   std::int64_t stood_ns = 0;                // pauses that the wished times have been moved by
   std::function<bool()> answers;            // of the board that its tasks read; empty: always there
   std::function<bool()> board;              // waits for the board's clock; empty: there is none
@@ -73,6 +75,9 @@ void ThreadedExecutor::add_own_lane(const std::string& name, std::vector<Task*> 
 void ThreadedExecutor::run(const std::function<bool()>& interrupted) {
   const MemoryLock lock;
   lock_refusal_ = lock.refusal();
+  std::optional<ProcessorsAwake> processors;
+  if (keeps_awake_) processors.emplace();
+  awake_ = processors && processors->held();
   std::size_t threads = 0;
   for (auto& lane : lanes_) {
     if (lane.get() == own_) continue;
@@ -152,6 +157,7 @@ bool ThreadedExecutor::stood_still(Lane& lane, const std::function<bool()>& inte
   lane.stood_ns += since;
   lane.wished_ns += since;
   lane.last_ns += since;
+  lane.served_ns += since;
   return since > 0;
 }
 
@@ -171,10 +177,12 @@ void ThreadedExecutor::pace(Lane& lane, const std::function<bool()>& interrupted
     const std::int64_t woken = now_ns(CLOCK_MONOTONIC);
     report.late.add(woken - lane.wished_ns);
     const bool first = report.wakes == 0;
-    report.awake_s += 1e-9 * static_cast<double>(woken - (first ? std::min(woken, lane.wished_ns) : lane.last_ns));
     if (!first) report.period.add(woken - lane.last_ns);
     const std::int64_t missed = std::max<std::int64_t>(0, (woken - lane.wished_ns) / lane.period_ns);
     lane.wished_ns = by_board ? woken : lane.wished_ns + missed * lane.period_ns;
+    report.awake_s +=
+        1e-9 * static_cast<double>(lane.wished_ns - (first ? start_ns_ + lane.offset_ns : lane.served_ns));
+    lane.served_ns = lane.wished_ns;
     report.missed += static_cast<std::uint64_t>(missed);
     report.longest_gap_ns = std::max(report.longest_gap_ns, woken - lane.last_ns);
     lane.last_ns = woken;

@@ -33,7 +33,7 @@ struct LaneReport {
   std::uint64_t wakes = 0, missed = 0;  ///< calls, and periods that passed without one
   std::uint64_t overruns = 0;           ///< wakes whose tasks were still at work when the next period began
   double seconds = 0;                   ///< from the first wish to the end, pauses aside
-  double awake_s = 0;                   ///< from the first wish to the last wake, pauses aside
+  double awake_s = 0;                   ///< from the first wish to that of the last wake, pauses aside
   DurationCounts late, period, cpu;
   std::int64_t longest_gap_ns = 0;  ///< between two wakes
 
@@ -60,6 +60,8 @@ class ThreadedExecutor {
   void pace_by(std::function<bool()> board);
   /// The last lane added runs on that processor only. @param processor -1: on any.
   void pin(int processor);
+  /// run() keeps the processors out of their idle states, where it may: power for promptness.
+  void keep_awake() { keeps_awake_ = true; }
   /// A lane in the thread that calls run().
   void add_own_lane(const std::string& name, std::vector<Task*> tasks);
 
@@ -70,6 +72,7 @@ class ThreadedExecutor {
   std::vector<const LaneReport*> reports() const;
   bool memory_locked() const { return lock_refusal_.empty(); }
   const std::string& lock_refusal() const { return lock_refusal_; }
+  bool processors_awake() const { return awake_; }  ///< were kept so
   /// When the run stood still and for how long; times of the run, in which pauses do not pass.
   struct Pause {
     double at_s = 0, seconds = 0;
@@ -93,6 +96,7 @@ class ThreadedExecutor {
   std::atomic<std::size_t> ready_{0};  ///< threads that have what they asked for
   std::int64_t start_ns_ = 0;
   std::string lock_refusal_;
+  bool keeps_awake_ = false, awake_ = false;
 };
 
 }  // namespace trocar

@@ -147,6 +147,7 @@ PatternRun wait_alone(double seconds) {
   Nothing nothing;
   ThreadedExecutor executor(kPatternHz);
   executor.add_lane("wait", {&nothing}, kLoopFifo);
+  executor.keep_awake();
   executor.run(after(seconds));
   return pattern_of("wait alone", *executor.reports().front());
 }

@@ -15,7 +15,7 @@ namespace trocar {
 
 struct PatternRun {
   std::string name, scheduler, refused;
-  double awake_s = 0;  ///< from the first time that was asked for to the last wake, of all slices
+  double awake_s = 0;  ///< from the first time that was asked for to that of the last wake, of all slices
   std::uint64_t missed = 0;
   std::int64_t longest_gap_ns = 0;
   DurationCounts late = {}, period = {}, work = {};  ///< period and work: empty where not told

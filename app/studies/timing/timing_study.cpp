@@ -62,7 +62,7 @@ void add_rate(StudyResult& study, const TimedLoad& load, const PatternRun& run, 
   study.cases.push_back({"mean rate, " + run.name + ", " + load_words(load), "Hz", rate, std::nullopt,
                          judged ? "1000.0 on average" : "reported",
                          !judged || std::abs(rate - kNominalHz) < kAverageTolerance,
-                         "Wakes over the time from the first that was asked for to the last; " +
+                         "Wakes over the time from the first that was asked for to the last that was; " +
                              std::to_string(run.missed) + " of " + std::to_string(run.late.count() + run.missed) +
                              " periods passed without one." + (judged ? lost_beside(beside_of(load)) : "")});
 }

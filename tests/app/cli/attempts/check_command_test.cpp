@@ -201,8 +201,8 @@ TEST(Doctor, JsonHasAFindingForEachThingAndLeavesNothingBehind) {
     problem = problem || found.at("state") == "problem";
   }
   EXPECT_EQ(names, (std::vector<std::string>{"version", "processors", "assets", "picture", "database", "kernel",
-                                             "real-time", "memlock", "governor", "display", "locale", "clock", "serial",
-                                             "boards", "network", "disk"}));
+                                             "real-time", "memlock", "idle-states", "governor", "display", "locale",
+                                             "clock", "serial", "boards", "network", "disk"}));
   EXPECT_EQ(json.at("sound"), !problem);
   EXPECT_EQ(said.code, problem ? 3 : 0);
   const std::string schema = ", database schema " + std::to_string(shipped_migrations().back().version);

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 #include <xmmintrin.h>
 
 #include <array>
@@ -209,7 +210,9 @@ TEST(RealTime, ALaneHasWhatItsReportSays) {
   ThreadedExecutor executor(1000);
   executor.add_lane("haptic", {&task}, 80);
   executor.pin(sched_getcpu());
+  executor.keep_awake();
   executor.run();
+  EXPECT_EQ(executor.processors_awake(), access("/dev/cpu_dma_latency", W_OK) == 0);
   const LaneReport& report = *executor.reports().front();
   EXPECT_EQ(report.policy, task.policy_ == SCHED_FIFO ? "SCHED_FIFO 80" : "SCHED_OTHER");
   EXPECT_EQ(report.refusal.empty(), task.policy_ == SCHED_FIFO) << "given, or the reason why not";
@@ -312,6 +315,9 @@ TEST(RealTime, TheRateIsThatOfTheWakesThatCame) {
   executor.run();
   const LaneReport& report = *executor.reports().front();
   EXPECT_LE(report.rate_hz(), 9 / 0.038) << "what was missed is not counted";
+  EXPECT_FALSE(executor.processors_awake()) << "not asked for";
+  EXPECT_NEAR(report.rate_hz(), 9e3 / static_cast<double>(9 + report.missed), 1e-6)
+      << "a late wake is no longer period";
   EXPECT_EQ(report.period.count(), 9u);
   EXPECT_LE(report.period.max_ns(), report.longest_gap_ns);
   EXPECT_EQ(LaneReport{}.rate_hz(), 0);

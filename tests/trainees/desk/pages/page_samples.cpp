@@ -144,7 +144,7 @@ RunReport sample_run_report() {
   device.kappa = 0.5;
   device.warnings = {{"sensor stale", 0.25, 12}};
   device.realtime =
-      R"({"kernel":"Linux 6.1.0","kernel_realtime":false,"processors":2,"load":2.06,"memory_locked":true,"lanes":{
+      R"({"kernel":"Linux 6.1.0","kernel_realtime":false,"processors":2,"load":2.06,"memory_locked":true,"processors_awake":true,"lanes":{
       "haptic":{"policy":"SCHED_FIFO 80","processor":1,"rate_hz":999.96,"wakes":60000,"missed":2,"overruns":0,
       "longest_gap_ms":3.2,"late_us":{"p50":12,"p99":31,"p99.9":96,"max":2214,"bins":{"7":200,"10":40000,"15":19000,
       "30":780,"70":19,"2000":1}},"period_us":{"p50":1001,"p99":1020,"p99.9":1090,"max":3214,"off_bins":{"-2000":1,
