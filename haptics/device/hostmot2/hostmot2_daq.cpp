@@ -20,9 +20,8 @@ const Hostmot2Options& checked(const Hostmot2Options& o) {
 }
 
 constexpr std::uint16_t kLongAgo = 65535;
-constexpr double kStampGrain = 0.01;  // of a period, that two readings of the card's time may be off
-constexpr std::uint32_t kOwnCounters =
-    1 << 16;                 // so many back a counter is still one of ours, late or lost as it may be
+constexpr double kStampGrain = 0.01;             // of a period, that two readings of the card's time may be off
+constexpr std::uint32_t kOwnCounters = 1 << 16;  // so many back, a counter is still one of this program's
 constexpr int kGivenUp = 6;  // answers lost in a row: from then on no longer than a period is waited for the next
 
 /// Divider of a clock that comes nearest to a rate: clock / (divider + 2).

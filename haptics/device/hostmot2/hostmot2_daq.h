@@ -94,8 +94,7 @@ class Hostmot2Daq final : public DataAcquisition {
   std::array<std::uint16_t, kChannels> raw_{};
   std::array<double, kChannels> edge_age_us_{};  ///< before the last latch
   std::uint16_t stamp_ = 0;
-  double late_ =
-      0;  ///< periods from the last period's SYNC to its latch; less one for each that a lost answer stood for
+  double late_ = 0;  ///< periods from the last SYNC to its latch, less those that lost answers stood for
   DaqSample last_;
   Hostmot2Link link_;
 };
