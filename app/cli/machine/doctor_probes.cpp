@@ -15,13 +15,14 @@
 #include <cstring>
 #include <filesystem>
 
+#include "haptics/device/mc4000/pci_bus.h"
+
 namespace trocar {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr int kConnect_ms = 1000;
-constexpr std::uintmax_t kLeastRegisters = 4 * 0x60;  // bytes, table 3.1 of the thesis
 
 bool connects(int family, const sockaddr* address, socklen_t size) {
   const int socket = ::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -99,9 +100,8 @@ bool names_boards(const std::string& card) { return card.find_first_of("/,") != 
 BoardLook look_at_board(const std::string& device) {
   std::error_code error;
   const bool node = device.starts_with("/dev/uio");
-  const fs::path folder = node ? fs::path("/sys/class/uio") / fs::path(device).filename() / "device" : fs::path(device);
-  const fs::path registers = folder / "resource0";
-  BoardLook look{.driver = driver_of(folder)};
+  const fs::path registers = board_registers(device);
+  BoardLook look{.driver = driver_of(registers.parent_path())};
   if (!fs::exists(device, error))
     look.trouble = device + (node ? ": is not there; bind the board to uio_pci_generic (docs/real_hardware.md)"
                                   : ": is not there; lspci -D lists the boards of this computer");
@@ -112,7 +112,7 @@ BoardLook look_at_board(const std::string& device) {
         device + ": has no resource0, so no registers that a program can reach; is it a PCI device's folder?";
   else if (!may_use(registers))
     look.trouble = no_right(registers);
-  else if (const auto bytes = fs::file_size(registers, error); error || bytes < kLeastRegisters)
+  else if (const auto bytes = fs::file_size(registers, error); error || bytes < kLeastBoardBytes)
     look.trouble = registers.string() + ": has too few registers for a board of the thesis; lspci -D lists the others";
   return look;
 }

@@ -19,8 +19,8 @@
 namespace trocar {
 namespace {
 
-constexpr std::size_t kLeastBytes = 4 * 0x60;  // table 3.1 of the thesis
-constexpr off_t kCommandHigh = 5;              // in a device's configuration
+constexpr const char* kNodes = "/dev/uio";
+constexpr off_t kCommandHigh = 5;  // in a device's configuration
 constexpr std::uint8_t kInterruptDisable = 1u << 2;
 
 int open_node(const std::filesystem::path& file) {
@@ -46,14 +46,16 @@ PciBus::Opened::~Opened() {
   if (file >= 0) ::close(file);
 }
 
-PciBus::PciBus(const std::string& device, double rate_hz, const std::string& interrupt) : PolledBus(rate_hz) {
+std::filesystem::path board_registers(const std::string& device) {
   namespace fs = std::filesystem;
   std::error_code error;
-  const bool is_node = device.starts_with("/dev/uio");
-  const fs::path place =
-      is_node ? fs::path("/sys/class/uio") / fs::path(device).filename() / "device" : fs::path(device);
-  const fs::path file = is_node || fs::is_directory(place, error) ? place / "resource0" : place;
-  const std::string& node = is_node ? device : interrupt;
+  if (device.starts_with(kNodes)) return fs::path("/sys/class/uio") / fs::path(device).filename() / "device/resource0";
+  return fs::is_directory(device, error) ? fs::path(device) / "resource0" : fs::path(device);
+}
+
+PciBus::PciBus(const std::string& device, double rate_hz, const std::string& interrupt) : PolledBus(rate_hz) {
+  const std::filesystem::path file = board_registers(device);
+  const std::string& node = device.starts_with(kNodes) ? device : interrupt;
   if (!node.empty()) {
     node_.file = open_node(node);
     config_.file = ::open((file.parent_path() / "config").c_str(), O_RDWR | O_CLOEXEC);
@@ -65,7 +67,7 @@ PciBus::PciBus(const std::string& device, double rate_hz, const std::string& int
     throw EnvironmentError("board " + file.string() + ": another program has it; end that one first");
   struct stat facts = {};
   bytes_ = ::fstat(registers_.file, &facts) == 0 ? static_cast<std::size_t>(facts.st_size) : 0;
-  if (bytes_ < kLeastBytes)
+  if (bytes_ < kLeastBoardBytes)
     throw EnvironmentError("board " + file.string() + ": only " + std::to_string(bytes_) + " bytes of registers");
   memory_ = ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, registers_.file, 0);
   if (memory_ == MAP_FAILED) throw EnvironmentError("board " + file.string() + ": " + std::strerror(errno));

@@ -10,11 +10,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "haptics/device/mc4000/polled_bus.h"
 
 namespace trocar {
+
+inline constexpr std::size_t kLeastBoardBytes = 4 * 0x60;  ///< of registers, table 3.1 of the thesis
+
+/// The file of a board's registers. @param device as PciBus takes it.
+std::filesystem::path board_registers(const std::string& device);
 
 class PciBus final : public PolledBus {
  public:
