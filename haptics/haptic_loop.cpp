@@ -135,7 +135,7 @@ HapticLoop::HapticLoop(const HapticLoopConfig& config)
       peak_(config.peak, config.device, config.heat),
       limiter_(peak_.most(), torque_rates(config), period_s_),
       supervisor_(with_noise(config), count_limits(config), period_s_, config.device.homing),
-      watch_(config.safety, config.device, config.heat, period_s_),
+      watch_(config.safety, config.device, config.heat, period_s_, config.motors),
       safety_log_(config.daq.rate_hz),
       friction_rates_(config.friction, period_s_) {
   config_.friction = safe(config.friction, config.device);

@@ -52,6 +52,7 @@ struct HapticLoopConfig {
   double pinch_play_m = 50e-6;    ///< way that the slide's friction gives back when it turns, half [assumed]
   SafetyLimits safety;
   MotorHeatParameters heat;
+  MotorStates motors;  ///< how warm they are at first
   PeakTorqueParameters peak;
   VelocityMethod velocity = VelocityMethod::kBlend;
   int known_delay_periods = 0;    ///< whole periods between write and DAC beyond the seam's own one, as measured
@@ -83,6 +84,7 @@ class HapticLoop {
   const HapticLoopConfig& config() const { return config_; }
   /// Of the last tick, for the tissue.
   const SolvedContacts& contacts() const { return contact_.contacts(); }
+  MotorStates motors() const { return watch_.motors(); }  ///< how warm they are by the model
   const SafetyLog& safety_log() const { return safety_log_; }
   const Homing& homing() const { return supervisor_.homing(); }
   const PassivityController& pinch_passivity() const { return pinch_passivity_; }

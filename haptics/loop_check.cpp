@@ -10,6 +10,7 @@ namespace {
 constexpr double kAny = std::numeric_limits<double>::max();
 constexpr double kEver = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();
+constexpr double kColdest_c = -50, kHottest_c = 500;  // what a motor can have at all
 
 /// Collects what is wrong; the first stays.
 class Bounds {
@@ -89,7 +90,11 @@ void check_passivity(Bounds& in, const std::string& at, const PassivityParameter
   in(at + "fade_debt_j", p.fade_debt_j, 0, p.fault_debt_j);
 }
 
-void check_heat(Bounds& in, const MotorHeatParameters& h) {
+void check_heat(Bounds& in, const MotorHeatParameters& h, const MotorStates& motors) {
+  for (const MotorTemperatures& motor : motors) {
+    in("motors.winding_c", motor.winding_c, kColdest_c, kHottest_c);
+    in("motors.case_c", motor.case_c, kColdest_c, kHottest_c);
+  }
   in("heat.resistance_ohm", h.resistance_ohm, 0, kAny);
   in("heat.winding_to_case_k_per_w", h.winding_to_case_k_per_w, kTiny, kAny);
   in("heat.case_to_air_k_per_w", h.case_to_air_k_per_w, kTiny, kAny);
@@ -111,7 +116,7 @@ std::string loop_refusal(const HapticLoopConfig& c) {
   check_safety(in, c.safety);
   check_passivity(in, "passivity.", c.passivity);
   check_passivity(in, "pinch_passivity.", c.pinch_passivity);
-  check_heat(in, c.heat);
+  check_heat(in, c.heat, c.motors);
   in("map.motion_scale", c.map.motion_scale, kTiny, 1000);
   in("map.force_scale", c.map.force_scale, 0, 1);
   in.each("map.X_TW.p", c.map.X_TW.p, -1000, 1000);

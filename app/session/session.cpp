@@ -1,6 +1,7 @@
 #include "app/session/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -38,7 +39,8 @@ constexpr std::uint64_t kPatchDelay = 5;  // ticks from the tissue task to the h
 constexpr double kPictureRateHz = 50;     // live; frames that come too late are dropped
 constexpr int kHapticPriority = 80, kTissuePriority = 60, kSensorPriority = 50;
 constexpr std::uint64_t kSensorSeed = 0xf0ece5;  // the sensor's noise, apart from the hand's
-constexpr double kTissueOffset = 0.5;            // loop periods: a tissue step sees the tick of its own period
+constexpr double kMotorsTold_s = 5;
+constexpr double kTissueOffset = 0.5;          // loop periods: a tissue step sees the tick of its own period
 constexpr double kLongestBeyondLimits_s = 60;  // homing and reading, beyond the run's time and the director's patience
 
 /// Channels, models and tasks of one run, whatever drives them and whatever back-end is behind.
@@ -51,10 +53,11 @@ struct Rig {
         hand_frames(make_channel<ExerciseFrame>(timing)),
         observer_frames(make_channel<ExerciseFrame>(timing)),
         records(make_channel<TickRecord>(timing)),
+        motors(make_channel<MotorStates>(timing)),
         loop(scene.loop),
         director(scene.setup.exercise, scene.level, scene.board,
                  scene.loop.daq.motors ? Unbegun::kTimeout : Unbegun::kVoid),
-        haptic(daq, loop, {*patch, *state, records.get(), recorder ? &recorder->ticks : nullptr},
+        haptic(daq, loop, {*patch, *state, records.get(), recorder ? &recorder->ticks : nullptr, motors.get()},
                2 * scene.level.time_limit_s + kLongestBeyondLimits_s),
         tissue(scene, director,
                {*state, *patch, hand_frames.get(), observer_frames.get(), recorder ? &recorder->steps : nullptr,
@@ -103,6 +106,7 @@ struct Rig {
   std::unique_ptr<Channel<ContactPatch>> patch;
   std::unique_ptr<Channel<ExerciseFrame>> hand_frames, observer_frames;
   std::unique_ptr<Channel<TickRecord>> records;
+  std::unique_ptr<Channel<MotorStates>> motors;
   HapticLoop loop;
   Director director;
   HapticTask haptic;
@@ -160,6 +164,24 @@ class MarkTask final : public Task {
   const MarkCount& marks_;
   EventType type_;
   std::uint32_t taken_ = 0;
+};
+
+/// Tells now and then how warm the motors are.
+class MotorTask final : public Task {
+ public:
+  MotorTask(Rig& rig, const std::function<void(const MotorStates&)>& tell)
+      : rig_(rig),
+        tell_(tell),
+        period_(static_cast<std::uint32_t>(std::lround(kMotorsTold_s * rig.scene.loop.daq.rate_hz))) {}
+  std::uint32_t period() const override { return period_; }
+  void run(std::uint64_t tick) override {
+    if (tick > 0) tell_(rig_.motors->newest(tick));
+  }
+
+ private:
+  Rig& rig_;
+  const std::function<void(const MotorStates&)>& tell_;
+  std::uint32_t period_;
 };
 
 WrenchSensorConfig sensor_of(const AttemptSetup& setup) {
@@ -251,7 +273,10 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
   if (attempt.backend.daq->capabilities().motors) executor.keep_awake();
   executor.add_lane("tissue", tissue, kTissuePriority, kTissueOffset);
   if (attempt.sensor) executor.add_lane("force-sensor", {&*attempt.sensor}, kSensorPriority, kTissueOffset);
-  executor.add_lane("recorder", {&attempt.recorder}, 0);
+  std::vector<Task*> kept{&attempt.recorder};
+  std::optional<MotorTask> motors;
+  if (hooks.motors) kept.push_back(&motors.emplace(rig, hooks.motors));
+  executor.add_lane("recorder", kept, 0);
   if (hooks.observe && !each_step) executor.add_own_lane("pictures", {&observer});
   ClockWitness witness;
   executor.run([&] {
@@ -259,6 +284,7 @@ SessionOutcome run_live(Attempt& attempt, const SessionHooks& hooks) {
     return hooks.interrupted && hooks.interrupted();
   });
   if (hooks.paced) hooks.paced(executor);
+  if (hooks.motors) hooks.motors(rig.loop.motors());
   SessionOutcome out = attempt.outcome();
   out.device.realtime = realtime_json(executor, attempt.recorder.lost(), witness.seen());
   for (std::string& note : realtime_notes(executor, attempt.recorder.lost())) out.notes.push_back(std::move(note));

@@ -64,8 +64,10 @@ struct SessionHooks {
   std::function<bool()> board_answers =
       {};  ///< live: while it says no, everything stands still; needs `pause`, and no exam
   std::function<void(const ThreadedExecutor&)> paced = {};  ///< live: told when the run is over, how it was paced
-  KeyframeRule keyframes = {};                              ///< for playback
-  RecordingSeal seal = {};                                  ///< of record_session(): whose the recording is
+  /// live: told every few seconds how warm the motors are, in the recorder's thread, and at the end in the caller's
+  std::function<void(const MotorStates&)> motors = {};
+  KeyframeRule keyframes = {};   ///< for playback
+  RecordingSeal seal = {};       ///< of record_session(): whose the recording is
   PauseSwitch* pause = nullptr;  ///< live: lets everything stand still, the simulated device too
 };
 

@@ -7,9 +7,9 @@
 namespace trocar {
 
 DeviceWatch::DeviceWatch(const SafetyLimits& limits, const DeviceModel& model, const MotorHeatParameters& heat,
-                         double period_s)
+                         double period_s, const MotorStates& motors)
     : limits_(limits), model_(model), period_s_(period_s) {
-  heat_.fill(MotorHeat(heat));
+  std::ranges::transform(motors, heat_.begin(), [&](const MotorTemperatures& start) { return MotorHeat(heat, start); });
   for (int i = 0; i < kChannels; ++i) {
     const Transmission& t = model.transmission[i];
     strong_[i] = limits.stuck_torque_share * t.max_motor_torque / t.ratio;
@@ -110,6 +110,12 @@ std::array<double, kChannels> DeviceWatch::winding_c() const {
   std::array<double, kChannels> winding;
   std::ranges::transform(heat_, winding.begin(), &MotorHeat::winding_c);
   return winding;
+}
+
+MotorStates DeviceWatch::motors() const {
+  MotorStates motors;
+  std::ranges::transform(heat_, motors.begin(), &MotorHeat::temperatures);
+  return motors;
 }
 
 double DeviceWatch::hottest_c() const { return std::ranges::max(winding_c()); }

@@ -34,7 +34,9 @@ struct WatchedTick {
 
 class DeviceWatch {
  public:
-  DeviceWatch(const SafetyLimits& limits, const DeviceModel& model, const MotorHeatParameters& heat, double period_s);
+  /// @param motors how warm they are at first.
+  DeviceWatch(const SafetyLimits& limits, const DeviceModel& model, const MotorHeatParameters& heat, double period_s,
+              const MotorStates& motors = {});
 
   /// Raises what it finds. A torque that is not finite is left out of the heat model, which must outlive the fault.
   void update(const WatchedTick& now, Supervisor& supervisor);
@@ -46,6 +48,7 @@ class DeviceWatch {
   ChannelVector damping(const ChannelVector& qd) const;
   std::array<double, kChannels> winding_c() const;
   double hottest_c() const;
+  MotorStates motors() const;
 
  private:
   void watch_heat(const WatchedTick& now, Supervisor& supervisor);

@@ -5,7 +5,19 @@
 // Thread: haptic task; no allocation.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
+#include "haptics/quantities.h"
+
 namespace trocar {
+
+/// Of one motor, C; those of one that has stood for long.
+struct MotorTemperatures {
+  double winding_c = 25, case_c = 25;
+  bool operator==(const MotorTemperatures&) const = default;
+};
+using MotorStates = std::array<MotorTemperatures, kChannels>;
 
 struct MotorHeatParameters {
   double resistance_ohm = 2.32;          ///< [T table 3.1]
@@ -20,7 +32,9 @@ struct MotorHeatParameters {
 
 class MotorHeat {
  public:
-  explicit MotorHeat(const MotorHeatParameters& p = {}) : p_(p), winding_(p.ambient_c), case_(p.ambient_c) {}
+  explicit MotorHeat(const MotorHeatParameters& p = {}) : MotorHeat(p, {p.ambient_c, p.ambient_c}) {}
+  MotorHeat(const MotorHeatParameters& p, const MotorTemperatures& start)
+      : p_(p), winding_(start.winding_c), case_(start.case_c) {}
 
   void update(double current_a, double dt_s) {
     const double loss = current_a * current_a * p_.resistance_ohm * (1 + p_.copper_per_k * (winding_ - p_.ambient_c));
@@ -28,6 +42,12 @@ class MotorHeat {
     winding_ += (loss - flow) * dt_s * p_.winding_to_case_k_per_w / p_.winding_time_s;
     case_ += (flow - (case_ - p_.ambient_c) / p_.case_to_air_k_per_w) * dt_s * p_.case_to_air_k_per_w / p_.case_time_s;
   }
+  /// Without current. Allocates nothing, but takes its time: not in the tick.
+  void rest(double seconds) {
+    const double most_s = std::min(seconds, kForEver * p_.case_time_s), step_s = p_.winding_time_s / kRestSteps;
+    for (double s = 0; s < most_s; s += step_s) update(0, std::min(step_s, most_s - s));
+  }
+  MotorTemperatures temperatures() const { return {winding_, case_}; }
   double winding_c() const { return winding_; }
   /// 1 below the fade temperature, 0 at the cut-off, linear between.
   double share() const {
@@ -38,6 +58,7 @@ class MotorHeat {
   bool cut() const { return winding_ >= p_.cut_c; }
 
  private:
+  static constexpr double kForEver = 20, kRestSteps = 20;
   MotorHeatParameters p_;
   double winding_, case_;
 };

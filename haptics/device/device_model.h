@@ -80,7 +80,8 @@ struct SensorMount {
   bool body_on_device = false;        ///< else the hand holds the body and the device acts on the tool side
   double fixture_kg = 0;              ///< that hangs on the tool side
   Vec3 fixture_com_F = Vec3::Zero();  ///< its centre of mass, m
-  std::optional<double> counts_per_n, counts_per_nm;  ///< none: usual for that kind of sensor
+  std::optional<double> lag_s;        ///< of its readings, with its filter; none: the thesis' sensor's
+  std::optional<double> counts_per_n, counts_per_nm;  ///< none: a Net F/T box's own, a serial Nano25's usual
 
   /// From F to S. @pre rpy_rad
   Mat3 R_SF() const {

@@ -108,6 +108,7 @@ void write_mount(std::ostream& out, const SensorMount& s) {
   if (s.fixture_kg > 0)
     out << "fixture_kg = " << digits(s.fixture_kg)
         << "\nfixture_com_mm = " << array(Vec3(s.fixture_com_F / file_units::kMilli)) << '\n';
+  if (s.lag_s) out << "lag_ms = " << digits(*s.lag_s / file_units::kMilli) << '\n';
   if (s.counts_per_n) out << "counts_per_n = " << digits(*s.counts_per_n) << '\n';
   if (s.counts_per_nm) out << "counts_per_nm = " << digits(*s.counts_per_nm) << '\n';
 }
@@ -123,6 +124,8 @@ SensorMount read_mount(StrictTable table) {
   s.fixture_com_F = table.vector_or("fixture_com_mm", -500, 500, Vec3::Zero()) * file_units::kMilli;
   if (table.has("fixture_com_mm") && s.fixture_kg == 0)
     table.fail("fixture_com_mm", "without 'fixture_kg' there is no fixture");
+  table.allow("lag_ms");
+  if (table.has("lag_ms")) s.lag_s = table.number("lag_ms", 0, 1000) * file_units::kMilli;
   for (const auto& [key, value] : {std::pair{"counts_per_n", &s.counts_per_n}, {"counts_per_nm", &s.counts_per_nm}}) {
     table.allow(key);
     if (table.has(key)) *value = table.number(key, 1, 1e9);

@@ -15,14 +15,14 @@
 //   design = "geared"            or "potentiometer" or "direct"; m_per_rad of the motor, most_force_n
 //   closed_counts, open_counts   two points of the slide, travel_m apart; home_m: where the jig holds it
 //   noise_counts, jaw_length_m
-//   [sensor]                     a real force/torque sensor at the stylus (SensorMount); missing: its axes are not
-//   known rpy_deg = [0, 0, 90]         from the stylus frame S to the sensor's axes F: turned by roll about x, pitch
-//   about y,
-//                                yaw about z of S, in this order; without it no force is compared
+//   [sensor]                     a real force/torque sensor at the stylus (SensorMount)
+//   rpy_deg = [0, 0, 90]         from the stylus frame S to the sensor's axes F: turned by roll about x, pitch about y,
+//                                yaw about z of S, in this order; missing: no force is compared
 //   body = "hand"                holds the sensor's body, and the device acts on its tool side; or "device"
 //   fixture_kg = 0.08            what hangs on the tool side, and fixture_com_mm = [x, y, z] in F
-//   counts_per_n, counts_per_nm  of the box or calibration sheet; missing: 1e6 (Net F/T), 192 and 10560 (Nano25,
-//   serial)
+//   lag_ms = 150                 of its readings with its filter; missing: the thesis' sensor's 150
+//   counts_per_n, counts_per_nm  of the calibration sheet; missing: as a Net F/T box says, 192 and 10560 (Nano25,
+//                                serial)
 // A file with [homing], [pinch] or [sensor] may do without [gravity] and [[joint]]. Strict as strict_toml.h. Everything
 // else of the model stays nominal. Thread: loading only.
 #pragma once

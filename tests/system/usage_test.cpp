@@ -44,7 +44,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
        {"--backend", "--card", "--design", "--travel", "--ratio", "--most", "--noise", "--limit", "--seed", "--plant",
         "--out", "--json"}},
       {"device boards", {"device"}},
-      {"device sensor", {"--seconds", "--bias", "--json"}},
+      {"device sensor", {"--seconds", "--bias", "--device", "--json"}},
       {"device monitor",
        {"--backend", "--card", "--seconds", "--lockstep", "--seed", "--rate", "--calibration", "--device", "--inject",
         "--json"}},
@@ -61,7 +61,7 @@ const std::map<std::string, Translator>& other_commands_and_flags() {
       {"organ render", {"-o", "--width", "--height"}},
       {"picture", {"--out", "--scene", "--preset", "--width", "--height", "--seed", "--no-grain"}},
       {"organ phantom", {"--out", "--seed", "--json"}},
-      {"doctor", {"--db", "--card", "--sensor", "--json"}},
+      {"doctor", {"--db", "--card", "--sensor", "--device", "--json"}},
       {"completion", {"shell"}},
       {"manual", {}}};
   return table;

@@ -1,7 +1,5 @@
-// `trocar device pinch`: two points of the pinch's slide, closed and open, and where the jig holds it; torque zero.
-//
-// Behind a back-end with a simulated device a simulated hand does what is said, and how far the openings are off the
-// truth is measured; a real one is paced by the clock. Thread: one.
+#include "app/cli/device/device_pinch.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -21,7 +19,6 @@
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/true_plant.h"
-#include "haptics/device/backends/make_backend.h"
 #include "haptics/device/transmission.h"
 #include "haptics/input_error.h"
 #include "scenarios/files/device_file.h"
@@ -32,18 +29,9 @@ namespace {
 
 constexpr double kPinchRateHz = 1000;
 constexpr double kHeld_s = 1.0;      // still at an end before it counts
-constexpr std::int32_t kMoved = 50;  // counts from the last point
+constexpr std::int32_t kMoved = 50;  // counts from the last point, the first from where it was
 constexpr int kNotFound = 4;
 constexpr double kBeyond_m = 0.004;  // that the simulated fingers press beyond an end
-
-struct PinchCommand {
-  std::string backend = kSimulatedBackend, card = {}, design = "geared";
-  double travel_m = 0.030, ratio_m = 0, most_n = 10, limit_s = 60;
-  int noise = 0;
-  std::uint64_t seed = 1;
-  std::filesystem::path plant = {}, out = {};
-  bool json = false;
-};
 
 struct PinchPoint {
   const char* words;
@@ -73,7 +61,8 @@ class PinchBench {
     move(point);
     exchange(backend_.world != nullptr);
     const bool rests = std::abs(count_ - from_) <= options_.noise + 1;
-    const bool elsewhere = at() == 0 || std::abs(count_ - counts_[at() - 1]) >= kMoved;
+    if (!begun_) begun_ = count_;
+    const bool elsewhere = std::abs(count_ - (at() == 0 ? *begun_ : counts_[at() - 1])) >= kMoved;
     if (rests && elsewhere) {
       sum_ += count_, ++held_;
     } else {
@@ -128,6 +117,7 @@ class PinchBench {
   HandSense rest_;
   double goal_ = 0;
   std::int32_t count_ = 0, from_ = 0;
+  std::optional<std::int32_t> begun_;  ///< count before anybody has moved
   double sum_ = 0;
   long held_ = 0, waited_ = 0;
   std::atomic<std::size_t> at_ = 0;
@@ -165,6 +155,8 @@ class PinchLoopTask final : public Task {
   bool over_ = false;
 };
 
+}  // namespace
+
 int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before a thread is started: it must inherit what is blocked
   PinchBench bench(options);
@@ -177,7 +169,7 @@ int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& e
   }
   if (bench.at() < kPoints.size()) {
     err << "trocar: " << kPoints[bench.at()].words << ": not seen within " << options.limit_s << " s; it must rest for "
-        << kHeld_s << " s, and lie " << kMoved << " counts from the point before\n";
+        << kHeld_s << " s, and lie " << kMoved << " counts from where it was before\n";
     return kNotFound;
   }
   const auto& counts = bench.counts();
@@ -229,8 +221,6 @@ int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& e
   }
   return 0;
 }
-
-}  // namespace
 
 void add_device_pinch(CLI::App& parent, CommandAction& chosen) {
   const auto given = std::make_shared<PinchCommand>();

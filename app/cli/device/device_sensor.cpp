@@ -33,6 +33,8 @@ int device_sensor(const SensorCommand& options, std::ostream& out, std::ostream&
   const std::optional<SensorMount> mount = options.device.empty() ? std::nullopt : load_device(options.device).sensor;
   const std::unique_ptr<WrenchStream> sensor = make_force_sensor(options.sensor, mount);
   if (options.bias) sensor->bias();
+  const WrenchCounts counts = sensor->link().counts;
+  err << "trocar: " << (counts.doubt.empty() ? counts_words(counts) : counts.doubt) << '\n';
   int heard = 0;
   Vec3 mean = Vec3::Zero();
   const auto wait = std::chrono::duration<double>(1 / kSensorLinesHz);
@@ -56,7 +58,11 @@ int device_sensor(const SensorCommand& options, std::ostream& out, std::ostream&
                                   {"malformed", link.malformed},
                                   {"unsound", link.unsound},
                                   {"begun", link.begun},
-                                  {"taken_away", link.taken_away}}
+                                  {"taken_away", link.taken_away},
+                                  {"counts_per_n", counts.per_n},
+                                  {"counts_per_nm", counts.per_nm},
+                                  {"counts_from", counts.from},
+                                  {"counts_doubt", counts.doubt}}
                .dump(2)
         << '\n';
   err << "trocar: " << link_words(link) << '\n';
@@ -73,7 +79,9 @@ void add_device_sensor(CLI::App& parent, CommandAction& chosen) {
   sensor->add_option("sensor", given->sensor, "net-ft:ADDRESS, serial:/dev/ttyUSB0 or serial-binary:/dev/ttyUSB0")
       ->required();
   sensor->add_option("--seconds", given->seconds, "How long")->capture_default_str()->check(CLI::Range(0.1, 1e6));
-  sensor->add_option("--device", given->device, "Device file whose [sensor] says how many counts a newton has")
+  sensor
+      ->add_option("--device", given->device,
+                   "Device file whose [sensor] says how many counts a newton has; else a Net F/T box is asked")
       ->check(file_name());
   sensor->add_flag("--bias", given->bias, "Take the force at the beginning as zero");
   sensor->add_flag("--json", given->json, "As JSON");

@@ -18,6 +18,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,7 @@
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/input_error.h"
+#include "scenarios/files/device_file.h"
 #include "scenarios/files/exercise_loader.h"
 #include "trainees/store/database.h"
 
@@ -332,13 +334,23 @@ std::string card_words(const std::string& address) {
   return card.identify().board + " at " + address + "; trocar device card " + address + " says more";
 }
 
-std::string sensor_words(const std::string& words) {
+Finding force_sensor(const DoctorOptions& options) {
   constexpr auto kPatience = std::chrono::milliseconds(500);
-  const auto sensor = make_force_sensor(words);
-  std::this_thread::sleep_for(kPatience);
-  if (!sensor->sample(Vec3::Zero()).valid)
-    throw EnvironmentError(words + ": says nothing that holds; is it powered, and nothing else listening?");
-  return words + ": " + std::to_string(sensor->link().records) + " records in half a second";
+  std::string doubt;
+  Finding found = needed("sensor", [&] {
+    const std::string& words = options.sensor;
+    const auto sensor =
+        make_force_sensor(words, options.device.empty() ? std::nullopt : load_device(options.device).sensor);
+    std::this_thread::sleep_for(kPatience);
+    if (!sensor->sample(Vec3::Zero()).valid)
+      throw EnvironmentError(words + ": says nothing that holds; is it powered, and nothing else listening?");
+    const WrenchLink link = sensor->link();
+    doubt = link.counts.doubt;
+    return words + ": " + std::to_string(link.records) + " records in half a second; " +
+           (doubt.empty() ? counts_words(link.counts) : doubt);
+  });
+  if (!doubt.empty()) found.state = State::kWarning;
+  return found;
 }
 
 std::vector<Finding> findings(const DoctorOptions& options) {
@@ -371,7 +383,7 @@ std::vector<Finding> findings(const DoctorOptions& options) {
       card_network(mesa_card)};
   if (no_file.empty()) found.push_back(disk_room(file));
   if (!mesa_card.empty()) found.push_back(needed("card", [&] { return card_words(mesa_card); }));
-  if (!options.sensor.empty()) found.push_back(needed("sensor", [&] { return sensor_words(options.sensor); }));
+  if (!options.sensor.empty()) found.push_back(force_sensor(options));
   return found;
 }
 
@@ -405,6 +417,8 @@ void add_doctor(CLI::App& parent, CommandAction& chosen) {
   doctor->add_option("--db", o.database, "Database file");
   doctor->add_option("--card", o.card, "Address of a Mesa card, to be asked too; or the thesis' boards, FOLDER,FOLDER");
   doctor->add_option("--sensor", o.sensor, "A force sensor, net-ft:ADDRESS or serial:DEVICE, to be heard too");
+  doctor->add_option("--device", o.device, "Device file whose [sensor] says how many counts a newton has")
+      ->check(file_name());
   doctor->add_flag("--json", o.json, "As JSON");
 }
 

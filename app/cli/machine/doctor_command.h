@@ -10,6 +10,7 @@ namespace trocar {
 struct DoctorOptions {
   std::filesystem::path database;      ///< empty: the default path
   std::string card = {}, sensor = {};  ///< to be asked too: card or boards, and a force sensor, as run takes them
+  std::filesystem::path device = {};   ///< whose [sensor] says how many counts a newton has
   bool json = false;
 };
 

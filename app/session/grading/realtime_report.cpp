@@ -135,6 +135,7 @@ std::string force_sensor_json(const ForceSensorTask& sensor, const std::optional
   json["link"] = {{"records", link.records},      {"lost", link.lost},       {"out_of_order", link.out_of_order},
                   {"malformed", link.malformed},  {"unsound", link.unsound}, {"begun", link.begun},
                   {"taken_away", link.taken_away}};
+  json["counts"] = {{"per_n", link.counts.per_n}, {"per_nm", link.counts.per_nm}, {"from", link.counts.from}};
   if (sensor.measured().count() == 0) json["measured_rms_n"] = json["measured_rms_nm"] = nullptr;
   if (sensor.residual().count() == 0) json["residual_rms_n"] = json["residual_max_n"] = nullptr;
   return json.dump();
@@ -147,6 +148,7 @@ std::vector<std::string> force_sensor_notes(const ForceSensorTask& sensor, const
     return {name + "no valid sample in this run (" + link_words(link) + "); " +
             (link.records == 0 ? "is it powered, and is this its address?" : "it reports saturation or an error")};
   std::vector<std::string> notes;
+  if (!link.counts.doubt.empty()) notes.push_back(name + link.counts.doubt);
   const std::uint64_t missing = link.lost + link.malformed + link.unsound;
   if (static_cast<double>(missing) > kLossyShare * static_cast<double>(link.records) || link.begun > 1)
     notes.push_back(name + link_words(link));

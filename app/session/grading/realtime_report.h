@@ -44,10 +44,11 @@ struct RealSensorLine {
 
 /// {"rate_hz", "lag_s", "samples", "measured_rms_n", "residual_samples", "residual_rms_n", "residual_max_n"}; of a real
 /// sensor also "sensor", "axes" ("theatre", or "sensor" where its own are not configured), "measured_rms_nm", "zero" {
-/// "samples", "force_n", "moment_nm", in its own axes} and "link" {what WrenchLink counts}. What cannot be said,
-/// without a zero or without axes, is null.
+/// "samples", "force_n", "moment_nm", in its own axes}, "link" {what WrenchLink counts} and "counts" {"per_n",
+/// "per_nm", "from"}. What cannot be said, without a zero or without axes, is null.
 std::string force_sensor_json(const ForceSensorTask& sensor, const std::optional<RealSensorLine>& line = {});
-/// What was amiss with a real sensor, a line each: silent, its line lossy, taken away, no zero, no axes.
+/// What was amiss with a real sensor, a line each: silent, its counts doubtful, its line lossy, taken
+/// away, no zero, no axes.
 std::vector<std::string> force_sensor_notes(const ForceSensorTask& sensor, const RealSensorLine& line);
 
 /// Where the run stood still, as realtime_json() wrote it; none when it says nothing that can be read.

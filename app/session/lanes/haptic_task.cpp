@@ -19,6 +19,7 @@ void HapticTask::run(std::uint64_t tick) {
   ports_.tissue.commit();
   if (ports_.observer) ports_.observer->write(tick, record_);
   if (ports_.recorder) ports_.recorder->push(record_);
+  if (ports_.motors) ports_.motors->write(tick, loop_.motors());
 }
 
 bool HapticTask::finished() const { return since_fault_s_ > kAfterFault_s || record_.stylus.t_s > longest_s_; }

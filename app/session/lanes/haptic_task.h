@@ -21,6 +21,7 @@ struct HapticPorts {
   Outlet<HapticState>& tissue;
   Outlet<TickRecord>* observer = nullptr;
   TickRing* recorder = nullptr;
+  Outlet<MotorStates>* motors = nullptr;
 };
 
 class HapticTask final : public Task {

@@ -55,6 +55,16 @@ std::optional<DeviceFile> file_of(const nlohmann::json& setup, const char* key) 
   return DeviceFile{setup.at(key).at("text").get<std::string>(), setup.at(key).at("file").get<std::string>()};
 }
 
+MotorStates motors_of(const nlohmann::json& setup, const std::string& name) {
+  MotorStates motors;
+  if (!setup.contains("motors_c")) return motors;
+  const auto& listed = setup.at("motors_c");
+  if (listed.size() != motors.size()) throw InputError(name + kUnreadable + "motors_c is not one pair a motor");
+  for (std::size_t i = 0; i < motors.size(); ++i)
+    motors[i] = {listed.at(i).at(0).get<double>(), listed.at(i).at(1).get<double>()};
+  return motors;
+}
+
 /// Every digit is kept: what is laid from it lies as before, to the last bit.
 nlohmann::json placement_json(const OrganPlacement& placement) {
   const Mat3& R = placement.X_TO.R;
@@ -533,6 +543,7 @@ Scene build_scene(const AttemptSetup& setup, Organ organ, const DaqCapabilities&
   scene.loop.passivity.law = setup.passivity_law;
   scene.loop.pinch_passivity.law = setup.passivity_law;
   scene.loop.clamp_stiffness = setup.clamp_stiffness;
+  scene.loop.motors = setup.motors;
   return scene;
 }
 
@@ -565,6 +576,10 @@ std::string scene_json(const Scene& scene) {
   if (is_real_device(s.backend)) json["backend"] = s.backend;  // it homes otherwise than a simulated one
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
+  if (scene.loop.motors != MotorStates{}) {
+    for (const MotorTemperatures& motor : scene.loop.motors)
+      json["motors_c"].push_back({motor.winding_c, motor.case_c});
+  }
   return json.dump();
 }
 
@@ -606,6 +621,7 @@ RecordedSetup parse_scene_json(const std::string& text, const std::string& name)
       s.placement = placement_of(json.at("placement"), name);  // older recordings: looked for again
     s.device = {file_of(json, "calibration"), file_of(json, "device")};
     s.backend = json.value("backend", s.backend);
+    s.motors = motors_of(json, name);
     return out;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(name + kUnreadable + error.what());

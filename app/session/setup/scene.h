@@ -69,6 +69,7 @@ struct AttemptSetup {
   PassivityLaw passivity_law = PassivityLaw::kBudgeted;
   bool clamp_stiffness = false;             ///< contacts stiffer than K_max are weakened to it
   DeviceFiles device;                       ///< what the loop knows of its device beyond the nominal model
+  MotorStates motors = {};                  ///< how warm they are at first, by the model
   std::vector<InjectedFault> faults;        ///< simulated back-end only
   std::shared_ptr<const PlantFile> plant;   ///< of the simulated back-end; none: drawn by the seed. A replay needs none
   std::optional<OrganPlacement> placement;  ///< where the organ lies, when that is known; none: it is looked for

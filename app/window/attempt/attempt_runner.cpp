@@ -10,6 +10,7 @@
 #include "app/session/grading/recorded_result.h"
 #include "app/session/keeping/attempt_keeping.h"
 #include "app/window/attempt/disk_room.h"
+#include "app/window/attempt/motor_memory.h"
 #include "app/window/attempt/person_hand.h"
 #include "app/window/attempt/step_gate.h"
 #include "haptics/device/backends/make_backend.h"
@@ -41,6 +42,17 @@ std::shared_ptr<const Scene> paced_scene(Scene scene, bool by_clock) {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
+/// A real device's motors are as warm as they were left. @throws EnvironmentError: too hot to begin.
+std::shared_ptr<const Scene> warm_scene(std::shared_ptr<const Scene> scene) {
+  if (!is_real_device(scene->setup.backend)) return scene;
+  const MotorMemory memory(motor_folder(), scene->setup.backend, scene->setup.card);
+  const MotorStates motors = memory.now();
+  if (const std::string hot = too_hot_to_begin(motors); !hot.empty()) throw EnvironmentError(hot);
+  auto warm = std::make_shared<Scene>(*scene);
+  warm->setup.motors = warm->loop.motors = motors;
+  return warm;
+}
+
 /// @throws EnvironmentError: no room. InputError: no such hand.
 Database checked_database(const AttemptRequest& request, const Scene& scene, const AssetRoots& assets) {
   if (!request.steered)
@@ -64,7 +76,7 @@ struct AttemptRunner::State {
         steps(request.steps),
         graded(request.graded),
         assets(assets_in),
-        scene(std::move(scene_in)),
+        scene(warm_scene(std::move(scene_in))),
         database(checked_database(request, *scene, assets)),
         store(database),
         start(attempt_start(*scene, request.trainee, request.session)),
@@ -77,6 +89,7 @@ struct AttemptRunner::State {
     const std::lock_guard<std::mutex> lock(mutex);
     if (notes.empty() || notes.back() != line) notes.push_back(line);
   }
+  void keep_warmth(const MotorStates& motors) noexcept;
   void show(const SessionView& view);
   void run() noexcept;
   void record_and_grade();
@@ -108,6 +121,15 @@ struct AttemptRunner::State {
   std::thread thread;
 };
 
+/// In the recorder's thread, or at the end in the attempt's.
+void AttemptRunner::State::keep_warmth(const MotorStates& motors) noexcept {
+  try {
+    MotorMemory(motor_folder(), scene->setup.backend, scene->setup.card).keep(motors);
+  } catch (const std::exception& error) {
+    note("how warm the motors are is not kept: " + std::string(error.what()));
+  }
+}
+
 /// In the tissue task's thread: copies, and waits for nobody.
 void AttemptRunner::State::show(const SessionView& view) {
   RunMoment& moment = moments.back();
@@ -136,6 +158,7 @@ void AttemptRunner::State::record_and_grade() {
   if (!steps) hooks.pause = &pause;
   hooks.marks = &marks;
   hooks.messages = &messages;
+  if (is_real_device(scene->setup.backend)) hooks.motors = [this](const MotorStates& motors) { keep_warmth(motors); };
   if (scene->level.name != kExamLevel) hooks.board_answers = [this] { return plugged.load(std::memory_order_relaxed); };
   if (!graded) {
     Nowhere nowhere;

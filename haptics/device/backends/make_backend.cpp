@@ -1,5 +1,7 @@
 #include "haptics/device/backends/make_backend.h"
 
+#include <cmath>
+
 #include "haptics/device/backends/simulated_board.h"
 #include "haptics/device/hostmot2/hostmot2_daq.h"
 #include "haptics/device/mc4000/mc4000_daq.h"
@@ -8,6 +10,7 @@
 #include "haptics/device/replay_daq.h"
 #include "haptics/force_sensor/ati/ati_serial.h"
 #include "haptics/force_sensor/ati/net_ft.h"
+#include "haptics/force_sensor/ati/net_ft_counts.h"
 #include "haptics/force_sensor/simulated_force_sensor.h"
 #include "haptics/input_error.h"
 
@@ -110,6 +113,31 @@ const BackendKind& backend_kind(const std::string& name) {
   throw InputError("--backend " + name + ": unknown; known are " + known);
 }
 
+constexpr double kCountsAgree = 1e-3;  // share: who copies or converts a number rounds it [chosen]
+
+/// What the device file leaves open is the box's to say. Where they differ the file holds and a doubt is told. It is
+/// not refused: no torque follows from a reading, and whether a box set to other units answers with their counts was
+/// never tried, so that the file must stay the way out.
+void ask_counts(const std::string& box, const SensorMount& file, WrenchStreamOptions& options) {
+  const bool whole = file.counts_per_n && file.counts_per_nm;
+  NetFtCounts says;
+  try {
+    says = net_ft_counts(box);
+  } catch (const EnvironmentError&) {
+    if (!whole) throw;
+    options.counts_from += "; the box was asked in vain";
+    return;
+  }
+  options.counts_per_n = file.counts_per_n.value_or(says.per_n);
+  options.counts_per_nm = file.counts_per_nm.value_or(says.per_nm);
+  if (!whole) options.counts_from = file.counts_per_n || file.counts_per_nm ? "the device file and the box" : "the box";
+  const auto differ = [](double a, double b) { return std::abs(a - b) > kCountsAgree * b; };
+  if (differ(options.counts_per_n, says.per_n) || differ(options.counts_per_nm, says.per_nm))
+    options.counts_doubt = counts_words({options.counts_per_n, options.counts_per_nm, options.counts_from}) +
+                           ", but the box says " + counts_words({says.per_n, says.per_nm, "its calibration"}) +
+                           ": correct counts_per_n and counts_per_nm in [sensor] of the device file, or leave them out";
+}
+
 }  // namespace
 
 std::vector<std::string> backend_names() {
@@ -142,11 +170,15 @@ std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const 
   const std::size_t colon = words.find(':');
   const std::string kind = words.substr(0, colon), where = colon == std::string::npos ? "" : words.substr(colon + 1);
   WrenchStreamOptions options = kind == "net-ft" ? WrenchStreamOptions{} : nano25_options();
-  if (mount) {
-    options.counts_per_n = mount->counts_per_n.value_or(options.counts_per_n);
-    options.counts_per_nm = mount->counts_per_nm.value_or(options.counts_per_nm);
+  const SensorMount file = mount.value_or(SensorMount{});
+  if (file.counts_per_n || file.counts_per_nm) options.counts_from = "the device file";
+  options.counts_per_n = file.counts_per_n.value_or(options.counts_per_n);
+  options.counts_per_nm = file.counts_per_nm.value_or(options.counts_per_nm);
+  options.lag_s = file.lag_s.value_or(options.lag_s);
+  if (kind == "net-ft" && !where.empty()) {
+    ask_counts(where, file, options);
+    return std::make_unique<NetFt>(where, options);
   }
-  if (kind == "net-ft" && !where.empty()) return std::make_unique<NetFt>(where, options);
   if (kind == "serial" && !where.empty()) return std::make_unique<AtiSerial>(where, options);
   if (kind == "serial-binary" && !where.empty())
     return std::make_unique<AtiSerial>(where, options, AtiRecords::kBinary);

@@ -49,8 +49,8 @@ BackendAbilities backend_abilities(const std::string& name);
 bool is_real_device(const std::string& name);
 /// @throws InputError listing the names; std::invalid_argument when an option is out of range.
 Backend make_backend(const std::string& name, const BackendOptions& options);
-/// @param words as BackendOptions::force_sensor. @param mount how many counts a newton has, if it says. @throws
-/// InputError: another word; as NetFt, AtiSerial.
+/// @param words as BackendOptions::force_sensor. @param mount how many counts a newton has, if it says; a Net F/T box
+/// is asked, and says what is left open. @throws InputError: another word; as NetFt, net_ft_counts(), AtiSerial.
 std::unique_ptr<WrenchStream> make_force_sensor(const std::string& words, const std::optional<SensorMount>& mount = {});
 /// Plays a recording back: no sensor, no world. @param samples at least one. @param recorded on what it was recorded.
 Backend replay_backend(std::vector<DaqSample> samples, const DaqCapabilities& recorded);

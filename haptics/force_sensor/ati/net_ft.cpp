@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "haptics/force_sensor/ati/net_ft_counts.h"
+
 namespace trocar {
 namespace {
 
@@ -13,10 +15,12 @@ constexpr std::uint32_t kRestarted = 10'000;  // a leap back so far is a box tha
 
 std::uint32_t big_endian(const lbp16::Datagram& from, std::size_t at) { return __builtin_bswap32(from.value32(at)); }
 
+std::string udp_of(const NetFtAddress& box) { return box.host + ":" + std::to_string(box.udp); }
+
 }  // namespace
 
 NetFt::NetFt(const std::string& box, const WrenchStreamOptions& options)
-    : WrenchStream(options), link_(box.find(':') == std::string::npos ? box + ":" + std::to_string(kNetFtPort) : box) {
+    : WrenchStream(options), link_(udp_of(net_ft_address(box))) {
   start();
 }
 

@@ -13,11 +13,9 @@
 
 namespace trocar {
 
-inline constexpr int kNetFtPort = 49152;
-
 class NetFt final : public WrenchStream {
  public:
-  /// @param box "192.168.1.1" or with a port. @throws as UdpLink.
+  /// @param box as net_ft_address() takes it. @throws as that and UdpLink.
   NetFt(const std::string& box, const WrenchStreamOptions& options);
   ~NetFt() override;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <ctime>
+#include <iomanip>
+#include <sstream>
 
 namespace trocar {
 namespace {
@@ -11,6 +13,12 @@ constexpr std::uint64_t WrenchLink::*kCounters[] = {
     &WrenchLink::unsound, &WrenchLink::begun, &WrenchLink::taken_away};
 
 }  // namespace
+
+std::string counts_words(const WrenchCounts& counts) {
+  std::ostringstream out;
+  out << std::setprecision(9) << counts.per_n << " counts a N and " << counts.per_nm << " a N m, from " << counts.from;
+  return out.str();
+}
 
 std::string link_words(const WrenchLink& link) {
   std::string out = std::to_string(link.records) + " records, " + std::to_string(link.lost) + " lost, " +
@@ -53,6 +61,7 @@ void WrenchStream::count(std::uint64_t WrenchLink::*what, std::uint64_t by) {
 WrenchLink WrenchStream::link() const {
   WrenchLink out;
   for (std::size_t i = 0; i < counters_.size(); ++i) out.*kCounters[i] = counters_[i].load(std::memory_order_acquire);
+  out.counts = {options_.counts_per_n, options_.counts_per_nm, options_.counts_from, options_.counts_doubt};
   return out;
 }
 

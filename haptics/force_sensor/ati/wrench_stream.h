@@ -28,9 +28,11 @@ struct WrenchStreamOptions {
   double silent_s = 0.2;       ///< without a record: not valid, and asked again [chosen]
   double counts_per_n = 1e6;   ///< as the box or calibration sheet says [M: Net F/T's usual]
   double counts_per_nm = 1e6;  ///< likewise
-  std::int64_t (*now_ns)() = monotonic_ns;  ///< that dates records and tells their age
-  double most_nm = 3;                       ///< likewise
-  double most_n = 125;                      ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
+  std::string counts_from = "what is usual";  ///< who says so
+  std::string counts_doubt = {};              ///< what speaks against it; empty: nothing
+  std::int64_t (*now_ns)() = monotonic_ns;    ///< that dates records and tells their age
+  double most_n = 125;                        ///< beyond it a record is not sound [F: Nano25 SI-125-3, across]
+  double most_nm = 3;                         ///< likewise
 };
 
 struct WrenchRecord {
@@ -41,12 +43,22 @@ struct WrenchRecord {
   bool sound = false;
 };
 
+/// How a sensor's counts become newtons.
+struct WrenchCounts {
+  double per_n = 0, per_nm = 0;
+  std::string from = {}, doubt = {};  ///< as WrenchStreamOptions has them
+};
+
+/// "1000000 counts a N and 1000000 a N m, from the box".
+std::string counts_words(const WrenchCounts& counts);
+
 /// What happened on the way since it was opened.
 struct WrenchLink {
   std::uint64_t records = 0, lost = 0, out_of_order = 0, malformed = 0, unsound = 0;
   std::uint64_t begun = 0;  ///< how often it was asked to begin: at first, and at each silence
   /// How often records stopped although the sensor was there, unbroken: it went on as soon as it was asked.
   std::uint64_t taken_away = 0;
+  WrenchCounts counts = {};
 };
 
 /// "1000 records, 12 lost, 0 broken, 0 saturated or in error; asked to begin once", and what that may mean.

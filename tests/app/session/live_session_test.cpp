@@ -85,6 +85,7 @@ TEST(LiveSession, ItsRunReportSaysHowItWasPaced) {
 TEST(LiveSession, ARealSensorThatSaysNothingIsNamedInItsRecordAndInWords) {
   Scene scene = short_scene(true);
   scene.setup.force_sensor = "net-ft:127.0.0.1:1";
+  scene.setup.device.identified = DeviceFile{"[sensor]\ncounts_per_n = 1e6\ncounts_per_nm = 1e6\n", "sensor.toml"};
   int asked = 0;
   const Taken live = take(scene, [&] { return ++asked > 50; });
   const auto run_report = nlohmann::json::parse(live.recording.run_report_json).at("force_sensor");

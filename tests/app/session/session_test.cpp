@@ -76,6 +76,17 @@ TEST(Session, ARunGradesAndReplaysToTheSameHash) {
   EXPECT_EQ(grade.status, AttemptStatus::kCompleted);
 }
 
+TEST(Session, MotorsThatBeganWarmReplayToTheSameHash) {
+  Scene scene = short_scene("expert");
+  scene.setup.motors[2] = scene.loop.motors[2] = {99.5, 1.0 / 3 + 60};
+  const Attempt attempt = run(scene);
+  const RecordedSetup recorded = parse_scene_json(attempt.recording.session, "memory");
+  EXPECT_EQ(recorded.setup.motors, scene.loop.motors);
+  const Scene again = build_scene(recorded.setup, find_assets(), recorded.daq);
+  EXPECT_EQ(replay_session(again, attempt.recording).state_hash, attempt.outcome.state_hash);
+  EXPECT_NE(replay_session(short_scene("expert"), attempt.recording).state_hash, attempt.outcome.state_hash);
+}
+
 TEST(Session, AnotherRubricIsReadWithTheRiseThatItsAnchorsWereSetWith) {
   Scene scene = short_scene("heavy-handed");
   scene.setup.exercise.rise_s = 0;

@@ -55,6 +55,20 @@ TEST_F(DeviceWatchTest, AHotMotorIsWarnedOfThenFadedThenCut) {
   expect_cause(FaultCode::kOverheat, 3);
 }
 
+TEST_F(DeviceWatchTest, MotorsBeginAsWarmAsTheyAreSaidToBe) {
+  MotorStates motors;
+  motors[5] = {105, 80};
+  watch = DeviceWatch(SafetyLimits{}, DeviceModel{}, MotorHeatParameters{}, kPeriod, motors);
+  EXPECT_EQ(watch.motors(), motors);
+  look();
+  EXPECT_TRUE(warns(LoopWarning::kHotMotor));
+  EXPECT_LT(watch.motors()[5].winding_c, 105);
+  motors[5].winding_c = 121;
+  watch = DeviceWatch(SafetyLimits{}, DeviceModel{}, MotorHeatParameters{}, kPeriod, motors);
+  look();
+  expect_cause(FaultCode::kOverheat, 5);
+}
+
 TEST_F(DeviceWatchTest, ATorqueThatIsNoNumberFaultsAndSparesTheHeatModel) {
   now.torque[2] = std::numeric_limits<double>::quiet_NaN();
   look();

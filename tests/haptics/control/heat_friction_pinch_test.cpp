@@ -46,6 +46,19 @@ TEST(MotorHeat, RestingMotorStaysAtAmbientAndAHotOneCoolsDown) {
   EXPECT_NEAR(heat.winding_c(), 25, 1.5);  // three case time constants
 }
 
+TEST(MotorHeat, ALongRestIsTheSameInFewerSteps) {
+  for (const double seconds : {0.0, 0.5, 7.3, 300.0, 1e9}) {
+    MotorHeat stepped({}, {110, 60}), rested({}, {110, 60});
+    for (int k = 0; k < static_cast<int>(std::min(seconds, 2e4) * 100); ++k) stepped.update(0, 0.01);
+    rested.rest(seconds);
+    EXPECT_NEAR(rested.winding_c(), stepped.winding_c(), 0.7) << seconds;
+    EXPECT_NEAR(rested.temperatures().case_c, stepped.temperatures().case_c, 0.1) << seconds;
+  }
+  MotorHeat clock_set_back({}, {110, 60});
+  clock_set_back.rest(-100);
+  EXPECT_EQ(clock_set_back.winding_c(), 110);
+}
+
 TEST(MotorHeat, SignOfTheCurrentDoesNotMatter) {
   MotorHeat a, b;
   for (int k = 0; k < 1000; ++k) {

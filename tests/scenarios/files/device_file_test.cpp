@@ -52,7 +52,7 @@ TEST(DeviceFile, ReadsBackBitForBit) {
 TEST(DeviceFile, ASensorReadsBackWithItsAxesFixtureAndCounts) {
   const DeviceModel read =
       load_device(written("[sensor]\nrpy_deg = [180, 0, 90]\nbody = \"device\"\nfixture_kg = 0.08\n"
-                          "fixture_com_mm = [0, 1, -20]\ncounts_per_n = 1000\ncounts_per_nm = 2e5\n"));
+                          "fixture_com_mm = [0, 1, -20]\nlag_ms = 4\ncounts_per_n = 1000\ncounts_per_nm = 2e5\n"));
   ASSERT_TRUE(read.sensor);
   // Rolled over first, then turned by the yaw: x of the sensor along y of the stylus, y along its x, z against its z.
   Mat3 turned;
@@ -66,6 +66,7 @@ TEST(DeviceFile, ASensorReadsBackWithItsAxesFixtureAndCounts) {
   EXPECT_LT((again.sensor->R_SF() - turned).norm(), 1e-12);
   EXPECT_LT((again.sensor->fixture_com_F - read.sensor->fixture_com_F).norm(), 1e-15);
   EXPECT_EQ(again.sensor->body_on_device, true);
+  EXPECT_EQ(again.sensor->lag_s, 0.004);
   EXPECT_EQ(again.sensor->counts_per_n, 1000);
   EXPECT_EQ(again.sensor->counts_per_nm, 2e5);
   const DeviceModel counts_only = load_device(written("[sensor]\ncounts_per_n = 1000\n"));
@@ -80,6 +81,7 @@ TEST(DeviceFile, ASensorThatMakesNoSenseIsRefusedAtItsPlace) {
             std::string::npos);
   EXPECT_NE(refusal("[sensor]\nrpy_deg = [0, 0]\n").find("rpy_deg"), std::string::npos);
   EXPECT_NE(refusal("[sensor]\nrpy_deg = [0, 0, 400]\n").find("rpy_deg"), std::string::npos);
+  EXPECT_NE(refusal("[sensor]\nlag_ms = 1500\n").find("lag_ms"), std::string::npos);
   EXPECT_NE(refusal("[sensor]\ncounts_per_n = 0\n").find("counts_per_n"), std::string::npos);
   EXPECT_NE(refusal("[sensor]\nbody = \"foot\"\n").find("body"), std::string::npos);
   EXPECT_NE(refusal("[sensor]\nfixture_g = 80\n").find("fixture_g"), std::string::npos);

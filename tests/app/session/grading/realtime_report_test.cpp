@@ -252,6 +252,22 @@ TEST(ForceSensorReport, WithoutAxesNothingIsComparedAndItIsSaid) {
   EXPECT_CONTAINS(notes[1], "rpy_deg");
 }
 
+TEST(ForceSensorReport, ItsCountsAreNamedAndWhatSpeaksAgainstThem) {
+  LiveChannel<StylusForces> forces;
+  RealSensor real(true);
+  SensorMount sits;
+  sits.rpy_rad = Vec3::Zero();
+  ForceSensorTask task(forces, real, 1000, RealSensorPlace{sits});
+  attempt_of(task, forces);
+  const RealSensorLine line{
+      "net-ft:192.168.1.1",
+      {.records = 500, .begun = 1, .counts = {5e5, 1e6, "the device file", "but the box says 1000000"}}};
+  const Json json = Json::parse(force_sensor_json(task, line));
+  EXPECT_EQ(json.at("counts"), (Json{{"per_n", 5e5}, {"per_nm", 1e6}, {"from", "the device file"}}));
+  ASSERT_EQ(force_sensor_notes(task, line).size(), 1u);
+  EXPECT_EQ(force_sensor_notes(task, line)[0], "force sensor net-ft:192.168.1.1: but the box says 1000000");
+}
+
 TEST(ForceSensorReport, ASilentOneIsSaidToBe) {
   LiveChannel<StylusForces> forces;
   RealSensor real(false);

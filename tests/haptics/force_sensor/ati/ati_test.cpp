@@ -2,7 +2,9 @@
 // pseudo-terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -19,8 +21,10 @@
 #include "haptics/force_sensor/ati/ati_serial.h"
 #include "haptics/force_sensor/ati/fake_sensor.h"
 #include "haptics/force_sensor/ati/net_ft.h"
+#include "haptics/force_sensor/ati/net_ft_counts.h"
 #include "haptics/input_error.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/tissue/support/temporary_folder.h"
 
 namespace trocar::ati_test {
 namespace {
@@ -30,6 +34,79 @@ bool soon(const std::function<bool()>& holds) {
   return holds();
 }
 
+/// What a Net F/T box answers who asks for its counts.
+std::string calibration(int force_unit, int torque_unit, std::uint32_t per_force, std::uint32_t per_torque) {
+  std::string out = {0x12, 0x34, static_cast<char>(force_unit), static_cast<char>(torque_unit)};
+  for (const std::uint32_t word : {per_force, per_torque})
+    for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(word >> shift);
+  return out + std::string(12, 'x');  // factors of 16-bit counts
+}
+
+/// The end of a box that tells its counts, by TCP.
+class FakeCounts {
+ public:
+  enum class Ends : std::uint8_t { kWaits, kCloses, kDribbles };
+  FakeCounts() : door_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own = {};
+    own.sin_family = AF_INET;
+    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof own;
+    auto* at = reinterpret_cast<sockaddr*>(&own);
+    EXPECT_TRUE(door_ >= 0 && ::bind(door_, at, size) == 0 && ::listen(door_, 4) == 0 &&
+                ::getsockname(door_, at, &size) == 0);
+    port = ntohs(own.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~FakeCounts() {
+    ends_ = true;
+    thread_.join();
+    ::close(door_);
+  }
+  std::string heard() {
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+  void say(const std::string& answer, Ends ends = Ends::kWaits) {
+    const std::lock_guard lock(mutex_);
+    answer_ = answer, how_ = ends;
+  }
+  std::uint16_t port = 0;
+
+ private:
+  void serve() {
+    while (!ends_) {
+      pollfd ready = {door_, POLLIN, 0};
+      if (::poll(&ready, 1, 3) <= 0) continue;
+      const int guest = ::accept4(door_, nullptr, nullptr, SOCK_CLOEXEC);
+      std::string heard(20, '\0');
+      if (::recv(guest, heard.data(), heard.size(), MSG_WAITALL) == 20) answer(guest, heard);
+      ::close(guest);
+    }
+  }
+  void answer(int guest, const std::string& heard) {
+    std::string answer;
+    Ends how{};
+    {
+      const std::lock_guard lock(mutex_);
+      heard_ = heard, answer = answer_, how = how_;
+    }
+    for (std::size_t at = 0; at < answer.size();) {
+      const std::size_t piece = how == Ends::kDribbles ? 1 : answer.size();
+      ::send(guest, answer.data() + at, piece, MSG_NOSIGNAL);
+      at += piece;
+      if (how == Ends::kDribbles) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    char last = 0;
+    if (how != Ends::kCloses) ::recv(guest, &last, 1, 0);  // until the other end closes
+  }
+  int door_;
+  std::mutex mutex_;
+  std::string answer_ = calibration(2, 3, 1'000'000, 1'000'000), heard_;
+  Ends how_ = Ends::kWaits;
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
 /// A Net F/T box: answers "begin" with records until it is told to stop.
 class FakeBox {
  public:
@@ -38,7 +115,10 @@ class FakeBox {
     ends = true;
     thread_.join();
   }
-  std::string address() const { return "127.0.0.1:" + std::to_string(link_.port()); }
+  std::string address() const {
+    return "127.0.0.1:" + std::to_string(link_.port()) + ":" + std::to_string(calibration.port);
+  }
+  FakeCounts calibration;
   static lbp16::Datagram record(std::uint32_t sequence, std::uint32_t status,
                                 const std::array<std::int32_t, 6>& counts) {
     lbp16::Datagram out;
@@ -162,6 +242,105 @@ TEST(ForceSensors, CountsOfANewtonAreThoseOfTheDeviceFile) {
   ASSERT_TRUE(soon([&] { return sensor->sample(Vec3::Zero()).valid; }));
   EXPECT_LT((sensor->sample(Vec3::Zero()).force - Vec3(3, -4, 0)).norm(), 1e-9);
   EXPECT_LT((sensor->sample(Vec3::Zero()).moment_nm - Vec3(0, 0, 0.25)).norm(), 1e-9);
+  EXPECT_CONTAINS(sensor->link().counts.doubt,
+                  "500000 counts a N and 2000000 a N m, from the device file, but the box says 1000000");
+}
+
+TEST(ForceSensors, ABoxIsAskedForTheCountsThatNoFileGives) {
+  FakeBox box;
+  box.calibration.say(calibration(1, 1, 1'000'000, 500'000));
+  const auto sensor = make_force_sensor("net-ft:" + box.address());
+  EXPECT_EQ(box.calibration.heard(), '\1' + std::string(19, '\0'));
+  ASSERT_TRUE(soon([&] { return sensor->sample(Vec3::Zero()).valid; }));
+  constexpr double kPound = 4.4482216152605;
+  EXPECT_LT((sensor->sample(Vec3::Zero()).force - kPound * Vec3(1.5, -2, 0)).norm(), 1e-9);
+  EXPECT_LT((sensor->sample(Vec3::Zero()).moment_nm - Vec3(0, 0, kPound * 0.0254)).norm(), 1e-9);
+  EXPECT_EQ(counts_words(sensor->link().counts), "224808.943 counts a N and 4425372.9 a N m, from the box");
+  EXPECT_EQ(sensor->link().counts.doubt, "");
+}
+
+TEST(ForceSensors, ThatTheFileRoundsIsNoDoubtAndHalfAFileLeavesTheRestToTheBox) {
+  FakeBox box;
+  box.calibration.say(calibration(1, 3, 1'000'000, 500'000));
+  SensorMount file;
+  file.counts_per_n = 224'800;
+  const WrenchCounts half = make_force_sensor("net-ft:" + box.address(), file)->link().counts;
+  EXPECT_EQ(counts_words(half), "224800 counts a N and 500000 a N m, from the device file and the box");
+  EXPECT_EQ(half.doubt, "");
+  file.counts_per_nm = 510'000;
+  EXPECT_CONTAINS(make_force_sensor("net-ft:" + box.address(), file)->link().counts.doubt, "counts_per_nm in [sensor]");
+}
+
+TEST(ForceSensors, ABoxThatTellsNoCountsIsTakenWithThoseOfTheFileOnly) {
+  FakeBox box;
+  box.calibration.say("", FakeCounts::Ends::kCloses);
+  const std::string words = "net-ft:" + box.address();
+  EXPECT_CONTAINS(test::message_of<EnvironmentError>([&] { make_force_sensor(words); }), "force sensor " + words);
+  SensorMount file;
+  file.counts_per_n = 1e6;
+  EXPECT_THROW(make_force_sensor(words, file), EnvironmentError) << "a newton metre is still open";
+  file.counts_per_nm = 1e6;
+  file.lag_s = 0.004;
+  const auto sensor = make_force_sensor(words, file);
+  EXPECT_EQ(sensor->config().lag_s, 0.004);
+  EXPECT_TRUE(soon([&] { return sensor->sample(Vec3::Zero()).valid; }));
+  EXPECT_EQ(sensor->link().counts.from, "the device file; the box was asked in vain");
+  EXPECT_EQ(make_force_sensor("serial:/dev/ptmx")->link().counts.per_n, 192) << "nobody is asked there";
+}
+
+TEST(NetFtCounts, EveryUnitBecomesNewtonsAndNewtonMetres) {
+  FakeCounts box;
+  const std::string address = "127.0.0.1:1:" + std::to_string(box.port);
+  const double newtons[] = {4.4482216152605, 1, 4448.2216152605, 1000, 9.80665, 0.00980665};
+  const double newton_metres[] = {0.1129848290276167, 1.3558179483314004, 1, 0.001, 0.0980665, 1000};
+  for (int unit = 1; unit <= 6; ++unit) {
+    box.say(calibration(unit, unit, 4'000'000'000, 10'560), FakeCounts::Ends::kDribbles);
+    const NetFtCounts counts = net_ft_counts(address);
+    EXPECT_NEAR(counts.per_n * newtons[unit - 1] / 4e9, 1, 1e-12) << unit;
+    EXPECT_NEAR(counts.per_nm * newton_metres[unit - 1] / 10'560, 1, 1e-12) << unit;
+  }
+}
+
+TEST(NetFtCounts, WhatABoxCannotMeanIsRefusedAndTheWayOutIsSaid) {
+  FakeCounts box;
+  const std::string address = "127.0.0.1:1:" + std::to_string(box.port), sound = calibration(2, 3, 1000, 1000);
+  struct Lie {
+    std::string answer;
+    FakeCounts::Ends ends;
+    const char* told;
+  };
+  const Lie lies[] = {
+      {"\x34\x12" + sound.substr(2), FakeCounts::Ends::kWaits, "does not begin its answer with 0x1234"},
+      {calibration(0, 3, 1000, 1000), FakeCounts::Ends::kWaits, "a unit of force that nobody knows: 0"},
+      {calibration(2, 7, 1000, 1000), FakeCounts::Ends::kWaits, "a unit of torque that nobody knows: 7"},
+      {calibration(2, 255, 1000, 1000), FakeCounts::Ends::kWaits, "a unit of torque that nobody knows: 255"},
+      {calibration(2, 3, 0, 1000), FakeCounts::Ends::kWaits, "says 0 counts"},
+      {calibration(2, 3, 1000, 0), FakeCounts::Ends::kWaits, "says 0 counts"},
+      {sound.substr(0, 12), FakeCounts::Ends::kWaits, "broke off after 12 of 24 bytes"},
+      {sound.substr(0, 23), FakeCounts::Ends::kCloses, "closed the connection after 23 of 24 bytes"},
+      {"", FakeCounts::Ends::kCloses, "closed the connection after 0 of 24 bytes"},
+      {"", FakeCounts::Ends::kWaits, "says nothing within 0.2 s"}};
+  for (const Lie& lie : lies) {
+    box.say(lie.answer, lie.ends);
+    const auto begun = std::chrono::steady_clock::now();
+    const std::string told = test::message_of<EnvironmentError>([&] { net_ft_counts(address, 0.2); });
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(5)) << lie.told;
+    EXPECT_CONTAINS(told, lie.told);
+    EXPECT_CONTAINS(told, "force sensor net-ft:" + address);
+    EXPECT_CONTAINS(told, "write counts_per_n and counts_per_nm");
+  }
+  EXPECT_CONTAINS(test::message_of<EnvironmentError>([] { net_ft_counts("127.0.0.1:1:1"); }), "Connection refused");
+}
+
+TEST(NetFtCounts, AnAddressHasTwoPortsAtMost) {
+  EXPECT_EQ(net_ft_address("192.168.1.1").tcp, 49151);
+  EXPECT_EQ(net_ft_address("192.168.1.1").udp, 49152);
+  EXPECT_EQ(net_ft_address("192.168.1.1:5:6").host, "192.168.1.1");
+  EXPECT_EQ(net_ft_address("192.168.1.1:5:6").udp, 5);
+  EXPECT_EQ(net_ft_address("192.168.1.1:5:6").tcp, 6);
+  for (const char* wrong : {"", "box", "192.168.1", "192.168.1.1:", "192.168.1.1:0",
+                            "192.168.1.1:5:", "192.168.1.1:5:x", "192.168.1.1:5:6:7", "192.168.1.1:65536"})
+    EXPECT_CONTAINS(test::message_of<InputError>([&] { net_ft_address(wrong); }), "force sensor net-ft:") << wrong;
 }
 
 TEST(NetFt, ASampleAllocatesNothingAndWaitsForNobody) {
