@@ -15,7 +15,7 @@ double home(double value, double step) { return value - std::clamp(value, -step,
 }  // namespace
 
 void ScopeHand::turn(const ScopeMove& more) {
-  if (more.post_rad == 0 && more.yaw_rad == 0 && more.pitch_rad == 0 && more.depth_m == 0) return;
+  if (more == ScopeMove{}) return;
   returning_ = false;
   move_.post_rad = std::remainder(move_.post_rad + more.post_rad, 2 * std::numbers::pi);
   move_.yaw_rad = std::clamp(move_.yaw_rad + more.yaw_rad, -kMostTurn_rad, kMostTurn_rad);
@@ -28,7 +28,7 @@ void ScopeHand::advance(double dt_s) {
   const double turn = kReturnTurn * dt_s;
   move_ = {home(move_.post_rad, turn), home(move_.yaw_rad, turn), home(move_.pitch_rad, turn),
            home(move_.depth_m, kReturnDepth * dt_s)};
-  returning_ = move_.post_rad != 0 || move_.yaw_rad != 0 || move_.pitch_rad != 0 || move_.depth_m != 0;
+  returning_ = move_ != ScopeMove{};
 }
 
 }  // namespace trocar

@@ -526,5 +526,6 @@ std::optional<Vec3> Steering::foot_T() const {
   return state_->ground > 0 ? std::optional(state_->foot_T) : std::nullopt;
 }
 ScopeMove Steering::scope() const { return state_->scope.move(); }
+void Steering::stop_scope_at(double depth_m) { state_->scope.stop_at(depth_m); }
 
 }  // namespace trocar

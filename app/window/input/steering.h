@@ -71,7 +71,8 @@ class Steering {
   /// Below the tip on the ground that it glides over; nothing: it moves along the view.
   std::optional<Vec3> foot_T() const;
   using ScopeMove = trocar::ScopeMove;
-  ScopeMove scope() const;  ///< turned by the person: light post, about its port, depth
+  ScopeMove scope() const;             ///< turned by the person: light post, about its port, depth
+  void stop_scope_at(double depth_m);  ///< no deeper: something is in its way
 
  private:
   struct State;

@@ -27,7 +27,8 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 constexpr double kHintsMost = 0.25;   // of the picture's height
 constexpr double kTipRoom = 0.07;     // of the picture's height round tip and target: for the bar at the tip
 constexpr double kSameDepth = 0.004;  // m: neither nearer nor farther
-constexpr double kStoring_s = 0.5;    // that a database may take before the debrief is shown all the same
+constexpr double kScopeTold_s = 1.5;
+constexpr double kStoring_s = 0.5;  // that a database may take before the debrief is shown all the same
 
 /// Before anything has been seen of the run: the instrument as the jig holds it, or where it comes in.
 RunMoment first_moment(const Scene& scene) {
@@ -68,6 +69,8 @@ struct RunScreen::State {
   Asked asked = Asked::kNothing;
   double dt_s = 0, event_s = 0;  // last frame's step; when the first event since the last intent was handed over
   double over_s = 0;             // since the result is there
+  ScopeMove scope;               // of the last frame
+  double scope_stopped_s = 0;    // that it is still to be told
   FirstRunHints hints;
   Play play = Play::kAttempt;
   std::optional<Tutorial> tutorial;
@@ -78,7 +81,9 @@ struct RunScreen::State {
   void steer(PracticeModel& model);
   void command(Action action, PracticeModel& model);
   const RunMoment& shown_moment(PracticeModel& model) const;
+  Camera framed(PracticeModel& model) const;
   Camera seen_by(PracticeModel& model) const;
+  void stop_scope(PracticeModel& model);
   TipGuide guide_at(const Scene& scene, const SceneView& view, const RunMoment& moment);
   std::string to_start(const Translator& words, const Scene& scene, const Vec3& tip_T) const;
   SceneView view(PracticeModel& model);
@@ -121,7 +126,8 @@ void RunScreen::State::begin(PracticeModel& model) {
   bars = true;
   guides = scene.level.guides;
   asked = Asked::kNothing;
-  over_s = 0;
+  over_s = scope_stopped_s = 0;
+  scope = {};
   latency.forget();
   sounds = RunSounds();
   play = model.playing();
@@ -140,12 +146,31 @@ const RunMoment& RunScreen::State::shown_moment(PracticeModel& model) const {
   return newest.seen && (run.ready() || run.scene().loop.daq.motors) ? newest : before;
 }
 
+/// Where the exercise has the scope.
+Camera RunScreen::State::framed(PracticeModel& model) const {
+  return attempt_camera(view_of(model.running()->scene(), shown_moment(model)));
+}
+
 /// Where the scope is now; until the person has taken hold, where the exercise has it.
 Camera RunScreen::State::seen_by(PracticeModel& model) const {
+  if (is_scope(model.running()->scene().setup.exercise)) return framed(model);
+  return moved_camera(framed(model), steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
+}
+
+/// The assistant's hand pushes and turns it into nothing: it is drawn back from what it would touch. One that rests
+/// stays where it is, whatever comes to it.
+void RunScreen::State::stop_scope(PracticeModel& model) {
+  scope_stopped_s = std::max(0.0, scope_stopped_s - dt_s);
+  const ScopeMove wanted = model.steering().scope();
   const Scene& scene = model.running()->scene();
-  const Camera camera = attempt_camera(view_of(scene, shown_moment(model)));
-  if (is_scope(scene.setup.exercise)) return camera;
-  return moved_camera(camera, steering ? model.steering().scope() : ScopeMove{}, model.scope_tilt_rad());
+  if (wanted == scope || is_scope(scene.setup.exercise)) return;
+  const RunMoment& moment = shown_moment(model);
+  std::vector<SurfacePtr> surfaces = moment.thin_T.empty() ? scene.thin_T : moment.thin_T;
+  surfaces.push_back(moment.organ_T ? moment.organ_T : scene.organ_T);
+  const double depth = clear_depth(framed(model), wanted, model.scope_tilt_rad(), surfaces, moment.record.stylus.X_TI);
+  if (depth < wanted.depth_m) scope_stopped_s = kScopeTold_s;
+  model.steering().stop_scope_at(depth);
+  scope = model.steering().scope();
 }
 
 /// Hands the newest intent to the attempt; from where the instrument is, once the device is ready.
@@ -164,6 +189,7 @@ void RunScreen::State::steer(PracticeModel& model) {
   const RunMoment& now = run.newest();
   const AtHand around = surroundings->around(now, run.target());
   const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height, around));
+  stop_scope(model);
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;
 }
@@ -235,6 +261,11 @@ void RunScreen::State::teach(const RunMoment& moment, PracticeModel& model) {
 /// What runs and how to leave it, above; what to do, as a message.
 void RunScreen::State::tell(Hud& hud, PracticeModel& model) const {
   const Translator& w = model.words();
+  if (scope_stopped_s > 0) {
+    hud.toast = w("Something is in the scope's way");
+    hud.toast_hint.clear();
+    hud.toast_warning = false;
+  }
   if (play == Play::kAttempt) return;
   hud.title =
       w(model.running()->scene().setup.exercise.title) + " \u00b7 " + w("{0}: leave", {w.name(key_name(kKeyEscape))});

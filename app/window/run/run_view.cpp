@@ -13,7 +13,9 @@ constexpr double kPortBehind = 0.09;   // m from the lens back to where the scop
 constexpr double kSteepest = 1.5;      // rad of the shaft up or down: beyond it "level" means nothing
 constexpr double kThreadFrom = 0.004;  // m
 constexpr double kRing = 0.009, kWire = 0.0007, kThread = 0.0005;
-constexpr double kArrowEdge = 4;  // px: dark edge round it
+constexpr double kLensClear = 0.003;                    // m before what the lens would touch
+constexpr double kShaftSeen = 0.2, kShaftStep = 0.004;  // m of the instrument
+constexpr double kArrowEdge = 4;                        // px: dark edge round it
 
 SceneObject ghost(SceneObject::Shape shape, const Vec3& size_m, const Pose& X_TO) {
   SceneObject object;
@@ -24,18 +26,36 @@ SceneObject ghost(SceneObject::Shape shape, const Vec3& size_m, const Pose& X_TO
   return object;
 }
 
-}  // namespace
-
-Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad) {
-  const bool rests = move.post_rad == 0 && move.yaw_rad == 0 && move.pitch_rad == 0 && move.depth_m == 0;
-  if (rests && tilt_rad == 0) return camera;
+ScopePose moved_scope(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad) {
   ScopePose pose = scope_behind(camera, tilt_rad, kPortBehind);
   pose.yaw_rad += move.yaw_rad;
   pose.pitch_rad = std::clamp(pose.pitch_rad + move.pitch_rad, -kSteepest, kSteepest);
   pose.depth_m += move.depth_m;
   pose.post_rad = move.post_rad;
   pose.head_rad -= move.post_rad;
-  return scope_camera(pose);
+  return pose;
+}
+
+}  // namespace
+
+Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad) {
+  return move == Steering::ScopeMove{} && tilt_rad == 0 ? camera : scope_camera(moved_scope(camera, move, tilt_rad));
+}
+
+double clear_depth(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad,
+                   const std::vector<SurfacePtr>& surfaces_T, const Pose& X_TI) {
+  const ScopePose pose = moved_scope(camera, move, tilt_rad);
+  const Vec3 along_T = (scope_camera(pose).eye_T - pose.port_T).normalized();
+  double deepest = pose.depth_m;
+  const auto pass = [&](const Vec3& p_T) {
+    const Vec3 from_port = p_T - pose.port_T;
+    const double across = from_port.dot(along_T), in = across - kLensClear;
+    if (across > 0 && in < deepest && (from_port - across * along_T).squaredNorm() < kScopeClear * kScopeClear)
+      deepest = in;
+  };
+  for (const SurfacePtr& surface : surfaces_T) std::ranges::for_each(surface->vertices, pass);
+  for (double back = 0; back < kShaftSeen; back += kShaftStep) pass(X_TI.p - back * X_TI.R.col(2));
+  return std::max(move.depth_m - (pose.depth_m - deepest), -ScopeHand::kMostDepth_m);
 }
 
 void add_ghost(SceneView& view, const HandIntent& target) {

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "app/picture/display/hud_layout.h"
 #include "app/picture/scene/scope_optics.h"
 #include "app/window/input/steering.h"
 #include "scenarios/hands/hand.h"
+#include "tissue/surface_snapshot.h"
 
 namespace trocar {
 
@@ -20,6 +22,13 @@ namespace trocar {
 /// @param camera as the exercise frames its scene, which a scope at rest shows whatever its tip. @param tilt_rad of the
 /// tip: 0 or pi / 6.
 Camera moved_camera(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad = 0);
+
+/// Depth to which that move may be pushed in before the scope touches what lies there, m: the move's own where nothing
+/// is in the way, never less than a scope can be drawn back. Surfaces count by their vertices, the instrument by its
+/// axis; either only in front of the port.
+inline constexpr double kScopeClear = 0.008;  ///< m from the shaft's axis: 5 mm of shaft, and half an edge of a surface
+double clear_depth(const Camera& camera, const Steering::ScopeMove& move, double tilt_rad,
+                   const std::vector<SurfacePtr>& surfaces_T, const Pose& X_TI);
 
 /// Ring round the shaft's axis at the target, and a thread from it to the tip; nothing while they are within
 /// kGhostFrom.

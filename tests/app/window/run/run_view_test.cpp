@@ -54,6 +54,64 @@ TEST(MovedCamera, TheScopeTurnsAboutItsPort) {
   EXPECT_NEAR((moved.eye_T - port).norm(), 0.09, 1e-12);
 }
 
+/// Points over a square of 80 mm, 2 mm apart, in the plane z = 0 of T.
+SurfacePtr floor_T() {
+  TriangleSurface floor;
+  for (int i = -20; i <= 20; ++i)
+    for (int k = -20; k <= 20; ++k) floor.vertices.push_back(0.002 * Vec3(i, k, 0));
+  return still_surface(floor);
+}
+
+Pose far_away() { return {Mat3::Identity(), Vec3(1, 0, 0)}; }
+
+TEST(ClearDepth, AScopeStopsBeforeWhatItWouldTouchAndNotBefore) {
+  // The lens is 141 mm from the middle of the floor, looking down at 45 degrees.
+  Steering::ScopeMove in;
+  in.depth_m = 0.05;
+  EXPECT_EQ(clear_depth(camera(), in, 0, {floor_T()}, far_away()), 0.05);
+  EXPECT_EQ(clear_depth(camera(), in, 0, {}, far_away()), 0.05);
+  TriangleSurface near = *floor_T();
+  for (Vec3& vertex : near.vertices) vertex += Vec3(0, -0.06, 0.06);
+  const double depth = clear_depth(camera(), in, 0, {still_surface(near)}, far_away());
+  EXPECT_GT(depth, 0.035);
+  EXPECT_LT(depth, 0.05);
+  in.depth_m = depth;
+  EXPECT_EQ(clear_depth(camera(), in, 0, {still_surface(near)}, far_away()), depth) << "there it may stay";
+  const Vec3 eye = moved_camera(camera(), in).eye_T;
+  for (const Vec3& vertex : near.vertices) EXPECT_GT((vertex - eye).norm(), 0.0029);
+}
+
+TEST(ClearDepth, ATiltedTipIsStoppedOnItsShaftNotOnItsLineOfSight) {
+  Steering::ScopeMove in;
+  in.depth_m = 0.05;
+  TriangleSurface before_the_eye = *floor_T();
+  const Vec3 sees = (camera().look_at_T - camera().eye_T).normalized();
+  for (Vec3& vertex : before_the_eye.vertices) vertex = camera().eye_T + 0.04 * sees + 0.1 * vertex;
+  const SurfacePtr speck = still_surface(before_the_eye);
+  EXPECT_LT(clear_depth(camera(), in, 0, {speck}, far_away()), 0.04);
+  EXPECT_EQ(clear_depth(camera(), in, std::numbers::pi / 6, {speck}, far_away()), 0.05) << "the shaft passes above it";
+}
+
+TEST(ClearDepth, TheInstrumentIsInTheWayToo) {
+  Steering::ScopeMove in;
+  in.depth_m = 0.05;
+  const Vec3 sees = (camera().look_at_T - camera().eye_T).normalized();
+  const Pose across{Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()).toRotationMatrix(),
+                    Vec3(camera().eye_T + 0.03 * sees + Vec3(0.05, 0, 0))};  // its shaft lies along x
+  EXPECT_NEAR(clear_depth(camera(), in, 0, {}, across), 0.027, 2e-3);
+}
+
+TEST(ClearDepth, WhatIsBehindThePortIsInNobodysWayAndAScopeIsDrawnBackSoFarAtMost) {
+  Steering::ScopeMove in;
+  in.depth_m = 0.01;
+  const Vec3 sees = (camera().look_at_T - camera().eye_T).normalized();
+  TriangleSurface one;
+  one.vertices = {camera().eye_T - 0.1 * sees};
+  EXPECT_EQ(clear_depth(camera(), in, 0, {still_surface(one)}, far_away()), 0.01);
+  one.vertices = {camera().eye_T - 0.08 * sees};
+  EXPECT_EQ(clear_depth(camera(), in, 0, {still_surface(one)}, far_away()), -ScopeHand::kMostDepth_m);
+}
+
 constexpr double kThirty = std::numbers::pi / 6;
 
 Vec3 sight(const Camera& of) { return (of.look_at_T - of.eye_T).normalized(); }
