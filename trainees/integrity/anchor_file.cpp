@@ -13,6 +13,7 @@
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar {
 namespace {
@@ -83,7 +84,11 @@ void write_anchor(const fs::path& database, const std::string& text) {
   if (text.empty()) return;
   std::ofstream out = open_owner_file(anchor_path(database));
   out << text << std::flush;
-  if (!out) throw EnvironmentError(anchor_path(database).string() + ": cannot be written: " + std::strerror(errno));
+  if (out) return;
+  const int reason = errno;
+  const std::string message = anchor_path(database).string() + ": cannot be written: " + std::strerror(reason);
+  if (is_disk_full(reason)) throw DiskFull(message);
+  throw EnvironmentError(message);
 }
 
 std::vector<std::string> check_anchor(const fs::path& database, sqlite3* connection) {

@@ -2,7 +2,9 @@
 
 #include <sqlite3.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -35,6 +38,17 @@ struct KeptKey {
 };
 thread_local KeptKey kept_key;
 
+/// Who owns a file writes and reads it, whatever its rights: the key must be of whoever runs this, of root, or of who
+/// owns the record itself.
+void require_own(const fs::path& file, const struct stat& about, const fs::path& database) {
+  struct stat record {};
+  if (about.st_uid == ::geteuid() || about.st_uid == 0) return;
+  if (::stat(database.c_str(), &record) == 0 && record.st_uid == about.st_uid) return;
+  throw EnvironmentError(file.string() +
+                         ": the station's key belongs to another user than the record, who can read it; chown it, and "
+                         "make a new one: trocar db key --renew");
+}
+
 void require_secret(const fs::path& file, const struct stat& about) {
   if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw EnvironmentError(file.string() +
@@ -52,6 +66,7 @@ std::optional<SigningKey> station_key(const fs::path& database) {
   if (database.empty() || ::stat(file.c_str(), &about) != 0) return std::nullopt;
   if (kept_key.holds(file, about)) return kept_key.key;
   require_secret(file, about);
+  require_own(file, about, database);
   std::ifstream in(file);
   if (!in) throw EnvironmentError(file.string() + ": the station's key cannot be read: " + std::strerror(errno));
   std::string title, seed;
@@ -80,19 +95,32 @@ void write_station_key(const fs::path& database, const SigningKey& key) {
   std::ofstream out = open_owner_file(file);
   out << kTitle << '\n' << key.seed() << '\n' << std::flush;
   if (!out) {
-    const std::string reason = std::strerror(errno);
+    const int reason = errno;
     std::error_code ignored;
     fs::remove(file, ignored);
-    throw EnvironmentError(file.string() + ": the station's key cannot be written: " + reason);
+    const std::string message = file.string() + ": the station's key cannot be written: " + std::strerror(reason);
+    if (is_disk_full(reason)) throw DiskFull(message);
+    throw EnvironmentError(message);
   }
 }
 
 std::string lost_key(sqlite3* connection) {
   const char* file = sqlite3_db_filename(connection, "main");
-  if (file == nullptr || *file == '\0' || announced_keys(connection).empty() || fs::exists(key_path(file))) return "";
-  return "its key " + key_path(file).filename().string() +
-         " is missing: what is written now is not signed, which db check tells for ever. "
-         "Put it back, or make a new one with trocar db key --renew";
+  if (file == nullptr || *file == '\0') return "";
+  const std::vector<AnnouncedKey> named = announced_keys(connection);
+  if (named.empty()) return "";
+  const std::string name = key_path(file).filename().string();
+  if (!fs::exists(key_path(file)))
+    return "its key " + name +
+           " is missing: what is written now is not signed, which db check tells for ever. "
+           "Put it back, or make a new one with trocar db key --renew";
+  const auto key = station_key(connection);
+  if (key &&
+      std::ranges::none_of(named, [own = key->public_key()](const AnnouncedKey& one) { return one.public_key == own; }))
+    return "its key " + name +
+           " is not the one that signs this record: what is written now does not count. "
+           "Put the right one back, or make a new one with trocar db key --renew";
+  return "";
 }
 
 std::vector<AnnouncedKey> announced_keys(sqlite3* connection) {

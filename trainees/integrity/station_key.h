@@ -23,8 +23,8 @@ inline constexpr const char* kActionKey = "station key";  ///< subject: the same
 
 std::filesystem::path key_path(const std::filesystem::path& database);
 
-/// Empty when there is no file, in memory always. @throws EnvironmentError: others than its owner may read it, it
-/// cannot be read. InputError: it holds no key.
+/// Empty when there is no file, in memory always. @throws EnvironmentError: others than its owner may read it, its
+/// owner is neither this user nor root nor the record's, it cannot be read. InputError: it holds no key.
 std::optional<SigningKey> station_key(const std::filesystem::path& database);
 std::optional<SigningKey> station_key(sqlite3* connection);
 
@@ -39,7 +39,8 @@ struct AnnouncedKey {
 /// Beside a copy. @throws EnvironmentError.
 void write_station_key(const std::filesystem::path& database, const SigningKey& key);
 
-/// What to say where the record names a key and its file is gone, "" when it is there.
+/// What to say where the record names a key and its file is gone or holds another, "" when it is there. @throws as
+/// station_key().
 std::string lost_key(sqlite3* connection);
 
 /// In order; empty where the database never had one (in memory, before schema 2).

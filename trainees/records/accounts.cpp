@@ -16,6 +16,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/password_rules.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar {
@@ -158,6 +159,7 @@ Account AccountStore::add(const std::string& login, const std::string& name, Rol
   const std::string hash = hashed(password), uuid = make_uuid();
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   if (find(login)) throw InputError("login \"" + login + "\": is taken");
   sql::Statement insert(connection,
                         "INSERT INTO account (uuid, login, name, role, trainee_id, password, created_utc)"
@@ -178,6 +180,7 @@ void AccountStore::set_password(const std::string& login, const std::string& pas
   check_password(password, required(find(login), login).role, login);
   const std::string hash = hashed(password);
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   const Account account = required(find(login), login);
   require_held(database_->connection(), account, confirmed);
   sql::Statement(database_->connection(), "UPDATE account SET password = ? WHERE uuid = ?")
@@ -212,6 +215,7 @@ void AccountStore::set_disabled(const std::string& login, bool disabled, const s
   AnchoredTransaction transaction(*database_);
   const Account account = required(find(login), login);
   if (disabled != account.disabled_utc.empty()) return;  // it is so already
+  require_key(*database_);
   require_held(database_->connection(), account, std::nullopt);
   if (disabled) require_another(database_->connection(), account);
   sql::Statement update(database_->connection(), "UPDATE account SET disabled_utc = ? WHERE uuid = ?");

@@ -32,7 +32,7 @@ struct FinishedAttempt {
 FinishedAttempt finished_attempt(sqlite3* connection, const std::string& uuid) {
   sql::Statement row(connection,
                      "SELECT id, row_hash, status, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"
-                     " AND e.kind = 'training') FROM attempt a WHERE uuid = ?");
+                     " AND e.kind = 'training' AND row_holds('erasure', e.id)) FROM attempt a WHERE uuid = ?");
   if (!row.bind(uuid).step()) throw InputError("attempt " + uuid + ": not in this database");
   if (row.text(2) == "running") throw InputError("attempt " + uuid + ": is still running");
   if (row.integer(3) != 0) throw InputError("attempt " + uuid + ": its training data were erased");
@@ -127,7 +127,7 @@ constexpr const char* kCertificates =
 void refuse_second(sqlite3* connection, std::int64_t attempt, const std::string& meaning, const Author& author) {
   sql::Statement row(connection,
                      "SELECT signer, utc FROM signature WHERE attempt_id = ?1 AND meaning = ?2 AND account_uuid = ?3"
-                     " AND (?3 <> '' OR signer = ?4)");
+                     " AND (?3 <> '' OR signer = ?4) AND row_holds('signature', id)");
   if (!row.bind(attempt).bind(meaning).bind(author.account_uuid).bind(author.printed).step()) return;
   throw InputError("already signed: " + row.text(0) + " gave \"" + meaning + "\" on " + row.text(1) +
                    "; nothing was written");
@@ -410,9 +410,9 @@ void AssessmentStore::revoke(const std::string& certificate_uuid, const std::str
   require_signature(*database_, author.account_uuid);
   const std::string uuid = next_row_uuid(connection, "revocation");
   {
-    sql::Statement known(
-        connection,
-        "SELECT r.utc FROM certificate c LEFT JOIN revocation r ON r.certificate_id = c.id WHERE c.uuid = ?");
+    sql::Statement known(connection,
+                         "SELECT r.utc FROM certificate c LEFT JOIN revocation r ON r.certificate_id = c.id AND"
+                         " row_holds('revocation', r.id) WHERE c.uuid = ?");
     if (!known.bind(certificate_uuid).step())
       throw InputError("certificate " + certificate_uuid + ": not in this database");
     if (!known.is_null(0)) throw InputError("certificate " + certificate_uuid + ": was revoked on " + known.text(0));

@@ -8,6 +8,7 @@
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -24,6 +25,7 @@ Consent ConsentStore::record(const std::string& trainee, const std::string& purp
   check_prose("consent", text);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   const Consent consent{next_row_uuid(connection, "consent"), purpose, text, author.account_uuid, utc_now(), given};
   if (!given && known_trainee(connection, trainee) && !holds(trainee, purpose))
     throw InputError("consent of " + trainee + " to \"" + purpose + "\": none is given, so none can be withdrawn");

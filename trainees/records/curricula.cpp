@@ -11,6 +11,7 @@
 #include "trainees/progress/benchmarks.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -88,7 +89,8 @@ void change_group(Database& database, const std::vector<std::string>& trainees, 
 
 }  // namespace
 
-Curriculum CurriculumStore::add(const std::string& name, const std::string& toml, const Author& author) {
+Curriculum CurriculumStore::add(const std::string& name, const std::string& toml, const Author& author,
+                                const Check& check) {
   check_printed("name of the curriculum", name, kLongestName);
   check_prose("curriculum " + name, toml, kLongestText);
   sqlite3* connection = database_->connection();
@@ -96,6 +98,7 @@ Curriculum CurriculumStore::add(const std::string& name, const std::string& toml
   if (const std::string lost = lost_key(connection); !lost.empty())
     throw InputError("curriculum " + name + ": not kept, for a text that is not signed rules nothing: " + lost);
   const std::optional<Curriculum> last = newest(name);
+  if (check) check(last);
   if (last && last->toml == toml) return *last;
   const Curriculum next{next_row_uuid(connection, "curriculum"),
                         name,
@@ -133,9 +136,11 @@ std::optional<Curriculum> CurriculumStore::newest(const std::string& name,
   return std::nullopt;
 }
 
-std::vector<Curriculum> CurriculumStore::list() const {
+std::vector<Curriculum> CurriculumStore::list(bool held) const {
   std::vector<Curriculum> all;
-  sql::Statement rows(database_->connection(), std::string(kCurricula) + " ORDER BY uuid DESC");
+  sql::Statement rows(
+      database_->connection(),
+      std::string(kCurricula) + (held ? " WHERE row_holds('curriculum', id)" : "") + " ORDER BY uuid DESC");
   while (rows.step()) all.push_back(curriculum_of(rows));
   return all;
 }
@@ -158,6 +163,7 @@ Benchmark CurriculumStore::add_benchmark(const Benchmark& numbers, const Author&
   sqlite3* connection = database_->connection();
   Benchmark added = numbers;
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   added.uuid = next_row_uuid(connection, "benchmark");
   added.author = signed_by(author);
   added.utc = utc_now();

@@ -31,13 +31,18 @@ class CurriculumStore {
  public:
   explicit CurriculumStore(Database& database) : database_(&database) {}
 
+  /// What may be thrown of the newest version of the name, if there is one, before the next is written: nobody else
+  /// writes in between.
+  using Check = std::function<void(const std::optional<Curriculum>& last)>;
+
   /// The next version of that name. The same text again adds nothing. @throws InputError: name not 1 to 64 characters,
-  /// empty text.
-  Curriculum add(const std::string& name, const std::string& toml, const Author& author);
+  /// empty text, the station's key is lost.
+  Curriculum add(const std::string& name, const std::string& toml, const Author& author, const Check& check = {});
   /// @param fits leaves out versions that are not, all without.
   std::optional<Curriculum> newest(const std::string& name,
                                    const std::function<bool(const Curriculum&)>& fits = {}) const;
-  std::vector<Curriculum> list() const;  ///< every version, newest first
+  /// Every version, newest first. @param held leaves out rows that no signed entry holds.
+  std::vector<Curriculum> list(bool held = false) const;
 
   Benchmark add_benchmark(const Benchmark& numbers, const Author& author);  ///< uuid, author and utc are set here
   std::vector<Benchmark> benchmarks(const std::string& exercise_id = "",

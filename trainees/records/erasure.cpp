@@ -8,8 +8,10 @@
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
+#include "trainees/records/attempt_rows.h"
 #include "trainees/records/printed_text.h"
 #include "trainees/records/replica_facts.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -46,7 +48,9 @@ Erased trainee_to_erase(sqlite3* connection, const std::string& code) {
 /// The record of the erasure comes first: the triggers ask for it.
 void record_erasure(sqlite3* connection, Erased& erased, ErasureKind kind, const std::string& rule,
                     const Author& author) {
-  sql::Statement known(connection, "SELECT uuid FROM erasure WHERE trainee_id = ? AND kind IN (?, 'training')");
+  sql::Statement known(connection,
+                       "SELECT uuid FROM erasure WHERE trainee_id = ? AND kind IN (?, 'training') AND"
+                       " row_holds('erasure', id)");
   if (known.bind(erased.id).bind(kind_name(kind)).step()) {
     erased.erasure = known.text(0);
     return;
@@ -212,6 +216,7 @@ ErasureReport erase_trainee(Database& database, const std::string& trainee, Eras
   std::vector<KeptRecording> recordings;
   {
     AnchoredTransaction transaction(database);
+    require_key(database);
     Erased erased = trainee_to_erase(connection, trainee);
     record_erasure(connection, erased, kind, rule, author);
     report.trainee_uuid = erased.uuid;

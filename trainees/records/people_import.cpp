@@ -9,6 +9,7 @@
 #include "trainees/integrity/anchored_transaction.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 #include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 
@@ -206,6 +207,7 @@ ImportPreview preview_people(Database& database, std::string_view csv, const std
 ImportPreview take_people(Database& database, std::string_view csv, const std::string& name, const std::string& group,
                           const Author& author) {
   AnchoredTransaction transaction(database);
+  require_key(database);
   ImportPreview out = looked_at(database.connection(), csv, name, group);
   TraineeStore people(database);
   for (const ImportRow& row : out.rows)
@@ -216,6 +218,7 @@ ImportPreview take_people(Database& database, std::string_view csv, const std::s
 
 void add_person(Database& database, const ImportRow& person, const Author& author) {
   AnchoredTransaction transaction(database);
+  require_key(database);
   ImportRow row = person;
   PeopleLook(database.connection()).judge(row);
   if (row.fate != RowFate::kNew) throw InputError("trainee \"" + row.code + "\": " + row.reason);

@@ -91,7 +91,8 @@ constexpr Part kOfTrainee[] = {
     {"standings", "SELECT uuid, active, reason, printed, utc FROM standing WHERE trainee_id = ?1 ORDER BY uuid"},
     {"assignments",
      "SELECT a.uuid, programme, due, a.printed, a.utc, w.utc AS withdrawn_utc, w.reason AS withdrawn_reason FROM"
-     " assignment a LEFT JOIN withdrawal w ON w.assignment_id = a.id WHERE a.trainee_id = ?1 ORDER BY a.uuid"},
+     " assignment a LEFT JOIN withdrawal w ON w.assignment_id = a.id AND row_holds('withdrawal', w.id)"
+     " WHERE a.trainee_id = ?1 ORDER BY a.uuid"},
     {"sessions", "SELECT uuid, station, started_utc, ended_utc FROM session WHERE trainee_id = ?1 ORDER BY id"},
     {"notes",
      "SELECT n.uuid, a.uuid AS attempt, printed, text, n.utc, s.utc AS seen_utc FROM note n"
@@ -100,7 +101,7 @@ constexpr Part kOfTrainee[] = {
     {"certificates",
      "SELECT c.uuid, exercise_id, level, rule_version, evidence, c.printed, c.utc, r.utc AS revoked_utc,"
      " r.printed AS revoked_by, r.reason AS revoked_reason FROM certificate c LEFT JOIN revocation r"
-     " ON r.certificate_id = c.id WHERE c.trainee_id = ?1 ORDER BY c.uuid"},
+     " ON r.certificate_id = c.id AND row_holds('revocation', r.id) WHERE c.trainee_id = ?1 ORDER BY c.uuid"},
     {"erasures", "SELECT uuid, kind, rule, utc FROM erasure WHERE trainee_id = ?1 ORDER BY uuid"},
 };
 

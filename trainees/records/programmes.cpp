@@ -6,6 +6,7 @@
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -47,13 +48,14 @@ std::optional<Assignment> held(sqlite3* connection, const std::string& programme
 
 }  // namespace
 
-Curriculum ProgrammeStore::save(const std::string& name, const std::string& toml, const Author& author) {
+Curriculum ProgrammeStore::save(const std::string& name, const std::string& toml, const Author& author,
+                                const CurriculumStore::Check& check) {
   read_programme(toml, name);
-  CurriculumStore curricula(*database_);
-  const auto last = curricula.newest(name);
-  if (name == kRulesCurriculum || (last && !is_programme(last->toml)))
-    throw InputError("\"" + name + "\": is the name of rules of progress; give the programme another");
-  return curricula.add(name, toml, author);
+  return CurriculumStore(*database_).add(name, toml, author, [&](const std::optional<Curriculum>& last) {
+    if (name == kRulesCurriculum || (last && !is_programme(last->toml)))
+      throw InputError("\"" + name + "\": is the name of rules of progress; give the programme another");
+    if (check) check(last);
+  });
 }
 
 std::vector<KeptProgramme> ProgrammeStore::list() const {
@@ -86,6 +88,7 @@ Assignment ProgrammeStore::assign(const std::string& programme, const std::strin
   find(programme);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   sql::Statement person(connection, "SELECT trainee_id FROM person WHERE code = ?");
   if (!trainee.empty() && !person.bind(trainee).step()) throw InputError("trainee \"" + trainee + "\": there is none");
   if (!trainee.empty()) require_person(connection, person.integer(0), trainee);
@@ -106,16 +109,20 @@ Assignment ProgrammeStore::assign(const std::string& programme, const std::strin
     insert.bind(person.integer(0));
   insert.bind(group).bind(programme).bind(due).bind(author.account_uuid).bind(author.printed).bind(utc_now()).run();
   seal_row(connection, "assignment", uuid, author.account_uuid);
+  const Assignment given = held(connection, programme, trainee, group).value();
   transaction.commit();
-  return held(connection, programme, trainee, group).value();
+  return given;
 }
 
 void ProgrammeStore::withdraw(const std::string& uuid, const std::string& reason, const Author& author) {
   if (!reason.empty()) check_printed("reason", reason, kLongestWithdrawal);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   sql::Statement known(
-      connection, "SELECT w.id FROM assignment a LEFT JOIN withdrawal w ON w.assignment_id = a.id WHERE a.uuid = ?");
+      connection,
+      "SELECT w.id FROM assignment a LEFT JOIN withdrawal w ON w.assignment_id = a.id AND row_holds('withdrawal', w.id)"
+      " WHERE a.uuid = ?");
   if (!known.bind(uuid).step()) throw InputError("assignment " + uuid + ": there is none");
   if (!known.is_null(0)) throw InputError("assignment " + uuid + ": was withdrawn before");
   insert_withdrawal(connection, uuid, reason, author);

@@ -32,7 +32,8 @@ class ProgrammeStore {
 
   /// The next version. @throws InputError: as read_programme() and CurriculumStore::add(); the name is that of the
   /// rules in force or of another kind of curriculum.
-  Curriculum save(const std::string& name, const std::string& toml, const Author& author);
+  Curriculum save(const std::string& name, const std::string& toml, const Author& author,
+                  const CurriculumStore::Check& check = {});
   /// Newest versions, by name.
   std::vector<KeptProgramme> list() const;
   /// @throws InputError: no programme of that name, or its text cannot be read.
@@ -40,10 +41,11 @@ class ProgrammeStore {
 
   /// To one person or to one group; what held for them of that programme is withdrawn as replaced.
   /// @param due "2026-06-30", "" for none. @throws InputError: no such programme, person or group, both or neither, no
-  /// day, the same holds already.
+  /// day, the same holds already, the station's key is lost.
   Assignment assign(const std::string& programme, const std::string& trainee, const std::string& group,
                     const std::string& due, const Author& author);
-  /// @param reason up to 200 bytes, may be "". @throws InputError: no such assignment, or withdrawn before.
+  /// @param reason up to 200 bytes, may be "". @throws InputError: no such assignment, or withdrawn before; the
+  /// station's key is lost.
   void withdraw(const std::string& uuid, const std::string& reason, const Author& author);
   /// Newest first, withdrawn ones too.
   std::vector<Assignment> assignments() const;

@@ -12,6 +12,7 @@
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/replica_facts.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar {
@@ -56,9 +57,8 @@ void require_room(const fs::path& to, std::uintmax_t bytes) {
   std::error_code error;
   const fs::space_info room = fs::space(to.parent_path(), error);
   if (error || room.available >= bytes) return;
-  throw EnvironmentError(to.string() + ": the recordings need " + size_text(bytes) + " and " +
-                         size_text(room.available) +
-                         " are free there; give a place on a larger disk, or leave the recordings out");
+  throw DiskFull(to.string() + ": the recordings need " + size_text(bytes) + " and " + size_text(room.available) +
+                 " are free there; give a place on a larger disk, or leave the recordings out");
 }
 
 /// Under the attempt's name: those that somebody chose may be the same in two folders.
@@ -73,8 +73,9 @@ void copy_recordings(const std::vector<Named>& all, const fs::path& database, Ba
       continue;
     }
     const fs::path target = report.recordings / (one.uuid + ".trec");
-    if (!fs::copy_file(one.file, target, error))
-      throw EnvironmentError(target.string() + ": the backup cannot be written: " + error.message());
+    const bool copied = fs::copy_file(one.file, target, error);
+    if (!copied && is_disk_full(error.value())) throw DiskFull(no_room_for_backup(target));
+    if (!copied) throw EnvironmentError(target.string() + ": the backup cannot be written: " + error.message());
     close_to_others(target);
     ++report.files;
     report.bytes += fs::file_size(target, error);

@@ -24,7 +24,8 @@ std::uintmax_t recordings_size(const Database& database);
 
 /// The recordings lie beside the copy as they do beside the record: NAME.recordings. All or nothing: what was begun is
 /// taken away again.
-/// @throws InputError when `to` or its folder of recordings exists, EnvironmentError: no room, cannot be written.
+/// @throws InputError when `to` or its folder of recordings exists, DiskFull: no room, EnvironmentError: cannot be
+/// written.
 BackupReport back_up(const Database& database, const std::filesystem::path& to, BackedUp what);
 
 }  // namespace trocar

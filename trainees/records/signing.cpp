@@ -38,4 +38,9 @@ void require_signature(const Database& database, const std::string& account_uuid
     throw InputError("no signature: " + why);
 }
 
+void require_key(const Database& database) {
+  if (const std::string lost = lost_key(database.connection()); !lost.empty())
+    throw InputError("nothing was written, for what is not signed counts nowhere: " + lost);
+}
+
 }  // namespace trocar

@@ -1,4 +1,5 @@
-// Who may sign, decide, certify and withdraw: a word that counts must be somebody's. Thread: that of the Database.
+// Who may sign, decide, certify and withdraw: a word that counts must be somebody's, and signed with the station's key.
+// Thread: that of the Database.
 #pragma once
 
 #include <string>
@@ -15,5 +16,8 @@ std::string why_no_signature(const Database& database, const std::string& accoun
 
 /// @throws InputError: that reason.
 void require_signature(const Database& database, const std::string& account_uuid);
+
+/// Before whatever counts only where a signed entry holds it. @throws InputError: the station's key is lost.
+void require_key(const Database& database);
 
 }  // namespace trocar

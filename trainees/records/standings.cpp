@@ -6,6 +6,7 @@
 #include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
+#include "trainees/records/signing.h"
 
 namespace trocar {
 namespace {
@@ -26,6 +27,7 @@ int StandingStore::set_active(const std::set<std::string>& codes, bool active, c
   if (!reason.empty()) check_printed("reason", reason, kLongestStandingReason);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   int changed = 0;
   for (const std::string& code : codes) {
     sql::Statement who(connection, "SELECT trainee_id FROM person WHERE code = ?");

@@ -8,6 +8,7 @@
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
 #include "trainees/records/replica_facts.h"
+#include "trainees/records/signing.h"
 #include "trainees/records/verdicts.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -103,14 +104,17 @@ std::optional<Trainee> TraineeStore::find(const std::string& name) const {
 }
 
 Trainee TraineeStore::edit(const std::string& code, const std::optional<std::string>& name,
-                           const std::optional<std::string>& email, const std::string& author) {
+                           const std::optional<std::string>& email, const std::string& author,
+                           const std::function<void(const Trainee&)>& check) {
   if (!name && !email)
     throw InputError("trainee \"" + code + "\": say what is to change, the name or the e-mail address");
   if (name && !name->empty()) check_printed("name", *name);
   if (email && !email->empty()) check_address(*email);
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   const auto known = find(code);
   if (!known) throw InputError("trainee \"" + code + "\": there is none");
+  if (check) check(*known);
   if (!person_holds(connection_, known->uuid))
     throw InputError("trainee \"" + code + "\": was changed by another way; see trocar db check");
   sql::Statement change(connection_, "UPDATE person SET name = ?1, email = ?2 WHERE trainee_id = ?3 RETURNING 1");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +40,10 @@ class TraineeStore {
   /// @param name code, "erased-..." of somebody whose identity has gone, or the trainee's whole UUID.
   std::optional<Trainee> find(const std::string& name) const;
   /// Name and e-mail address; what is not given stays, "" takes it away. @param author account's UUID, "" from the
-  /// command line.
-  /// @throws InputError: nobody, erased, a name of more than 100 bytes, no address.
+  /// command line. @param check throws where what stands now is not to be changed: nobody else changes it in between.
+  /// @throws InputError: nobody, erased, a name of more than 100 bytes, no address, the station's key is lost.
   Trainee edit(const std::string& code, const std::optional<std::string>& name, const std::optional<std::string>& email,
-               const std::string& author);
+               const std::string& author, const std::function<void(const Trainee&)>& check = {});
   /// All, by code.
   std::vector<Trainee> list() const;
 

@@ -246,6 +246,7 @@ void Database::backup(const fs::path& to) const {
     if (fs::exists(fs::symlink_status(beside)))
       throw InputError(beside.string() + ": exists already; a backup never overwrites");
   make_folder(fs::absolute(to));
+  if (!in_memory()) remove_abandoned_copies(file_);
   const auto anchor = read_anchor(file_);  // before the copy: what it holds is in the copy for certain
   copy_database(connection_.get(), to);
   try {

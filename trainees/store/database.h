@@ -64,7 +64,8 @@ class Database {
   std::string head() const;
   /// Begins a new anchor file where the old one was lost, and says so in the audit trail.
   void renew_anchor();
-  /// Consistent copy. @throws InputError when `to` exists, EnvironmentError when it cannot be written.
+  /// Consistent copy. What killed programs left of backups beside the database goes. @throws InputError when `to`
+  /// exists, EnvironmentError when it cannot be written, DiskFull when there is no room for it.
   void backup(const std::filesystem::path& to) const;
 
   sqlite3* connection() const { return connection_.get(); }

@@ -1,6 +1,9 @@
 #include "trainees/store/migrations.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -12,6 +15,7 @@
 #include "trainees/files/owner_file.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/integrity/station_key.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/schema.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -98,6 +102,34 @@ void verify_copy(sqlite3* original, const fs::path& copy) {
   if (!whole) throw EnvironmentError(copy.string() + ": the backup is not whole; the database was not migrated");
 }
 
+/// Held by who writes it for as long as it is open, as no other program may then; who is killed lets go.
+class HeldFile {
+ public:
+  explicit HeldFile(const fs::path& file)
+      : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
+    held_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  }
+  ~HeldFile() {
+    if (file_ >= 0) ::close(file_);
+  }
+  HeldFile(const HeldFile&) = delete;
+  HeldFile& operator=(const HeldFile&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  int file_;
+  bool held_ = false;
+};
+
+/// A copy that was begun, and whose writer is gone. @returns false: it is being written, or is not ours to touch.
+bool remove_abandoned(const fs::path& part) {
+  const HeldFile mine(part);
+  if (!mine.held()) return false;
+  std::error_code ignored;
+  fs::remove(part.string() + "-journal", ignored);
+  return fs::remove(part, ignored);
+}
+
 /// Everything that a schema is made of, by type and name; SQLite's own statistics are no part of it.
 std::map<std::string, std::string> schema_of(sqlite3* connection) {
   std::map<std::string, std::string> parts;
@@ -130,7 +162,8 @@ std::span<const Migration> shipped_migrations() {
   static const Migration kMigrations[] = {{1, schema_sql(), note_migration},
                                           {2, kSignatures, note_migration},
                                           {3, programme_schema_sql(), note_migration},
-                                          {4, running_rows_schema_sql(), note_migration}};
+                                          {4, running_rows_schema_sql(), note_migration},
+                                          {5, endings_schema_sql(), note_migration}};
   return kMigrations;
 }
 
@@ -207,10 +240,12 @@ void copy_database(sqlite3* from, const fs::path& to) {
   if (fs::exists(to)) throw InputError(to.string() + ": exists already; a backup never overwrites");
   fs::path part = to;
   part += ".part";
-  std::error_code ignored;
-  fs::remove(part, ignored);
-  if (!make_owner_file(part))
+  remove_abandoned(part);
+  if (!make_owner_file(part)) {
+    if (is_disk_full(errno)) throw DiskFull(no_room_for_backup(to));
     throw EnvironmentError(to.string() + ": the backup cannot be written: " + std::strerror(errno));
+  }
+  const HeldFile held(part);
   sqlite3* raw = nullptr;
   int code = sqlite3_open_v2(part.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
   Connection target(raw);
@@ -222,12 +257,26 @@ void copy_database(sqlite3* from, const fs::path& to) {
     if (code == SQLITE_OK) code = sqlite3_exec(target.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
   }
   const std::string detail = sqlite3_errmsg(target.get());
+  const bool full = code != SQLITE_OK && sql::disk_full(target.get(), code);
   target.reset();
   std::error_code error;
   if (code == SQLITE_OK) fs::rename(part, to, error);
   if (code == SQLITE_OK && !error) return;
+  std::error_code ignored;
   fs::remove(part, ignored);
+  if (full || is_disk_full(error.value())) throw DiskFull(no_room_for_backup(to));
   throw EnvironmentError(to.string() + ": the backup cannot be written: " + (error ? error.message() : detail));
+}
+
+void remove_abandoned_copies(const fs::path& file) {
+  std::error_code error;
+  const std::string begin = file.filename().string() + ".";
+  std::vector<fs::path> parts;
+  for (fs::directory_iterator it(file.parent_path(), error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (name.starts_with(begin) && name.ends_with(".backup.part")) parts.push_back(it->path());
+  }
+  for (const fs::path& part : parts) remove_abandoned(part);
 }
 
 }  // namespace trocar

@@ -45,8 +45,11 @@ void require_ours(sqlite3* connection, const std::filesystem::path& file, std::s
 MigrationReport migrate(sqlite3* connection, const std::filesystem::path& file, std::span<const Migration> migrations);
 
 /// Copies the whole database, consistent even while others write, for its owner's eyes only. @throws InputError when
-/// `to` exists already, EnvironmentError when it cannot be written.
+/// `to` exists already, EnvironmentError when it cannot be written, DiskFull when there is no room for it.
 void copy_database(sqlite3* from, const std::filesystem::path& to);
+
+/// Beside the database: what killed programs left of backups, "NAME.*.backup.part". What is being written stays.
+void remove_abandoned_copies(const std::filesystem::path& file);
 
 /// Where the schema of the database is not that of `migrations`: tables, indices, triggers, views; one line each.
 std::vector<std::string> check_schema(sqlite3* connection, std::span<const Migration> migrations);

@@ -596,6 +596,41 @@ CREATE TABLE withdrawal (
 ) STRICT;
 )sql";
 
+constexpr const char kEndings[] = R"sql(
+CREATE TABLE erasure (
+  id         INTEGER PRIMARY KEY,
+  uuid       TEXT NOT NULL UNIQUE,
+  trainee_id INTEGER NOT NULL REFERENCES trainee(id),
+  kind       TEXT NOT NULL CHECK (kind IN ('identity','training')),
+  rule       TEXT NOT NULL,
+  author     TEXT NOT NULL,
+  utc        TEXT NOT NULL
+) STRICT;
+CREATE INDEX erasure_by_trainee ON erasure(trainee_id, kind);
+
+CREATE TABLE revocation (
+  id             INTEGER PRIMARY KEY,
+  uuid           TEXT NOT NULL UNIQUE,
+  certificate_id INTEGER NOT NULL REFERENCES certificate(id),
+  author         TEXT NOT NULL,
+  printed        TEXT NOT NULL,
+  reason         TEXT NOT NULL CHECK (length(trim(reason)) >= 10),
+  utc            TEXT NOT NULL
+) STRICT;
+CREATE INDEX revocation_by_certificate ON revocation(certificate_id);
+
+CREATE TABLE withdrawal (
+  id            INTEGER PRIMARY KEY,
+  uuid          TEXT NOT NULL UNIQUE,
+  assignment_id INTEGER NOT NULL REFERENCES assignment(id),
+  reason        TEXT NOT NULL,
+  author        TEXT NOT NULL,
+  printed       TEXT NOT NULL,
+  utc           TEXT NOT NULL
+) STRICT;
+CREATE INDEX withdrawal_by_assignment ON withdrawal(assignment_id);
+)sql";
+
 std::string guard(const std::string& table, const std::string& name, const std::string& when,
                   const std::string& words) {
   return "CREATE TRIGGER " + table + "_" + name + " BEFORE " + when + " BEGIN SELECT RAISE(ABORT, '" + table + ": " +
@@ -654,6 +689,13 @@ std::string rows_of_attempts() {
   return sql;
 }
 
+// With what these rows may go.
+constexpr const char* kOfCertificate =
+    "SELECT 1 FROM erasure e JOIN certificate c ON c.trainee_id = e.trainee_id"
+    " WHERE c.id = OLD.certificate_id AND e.kind = 'training'";
+constexpr const char* kOfAssignment =
+    "SELECT 1 FROM erasure e JOIN assignment a ON a.trainee_id = e.trainee_id WHERE a.id = OLD.assignment_id";
+
 /// Kept for good, with a number that nothing takes over.
 std::string kept_for_good() {
   std::string sql;
@@ -682,9 +724,7 @@ std::string written_rows() {
   for (const char* table : {"signature", "rating"}) sql += never_deleted(table, of_attempt);
   sql += never_deleted("verdict_override", of_attempt + " AND e.kind = 'training'");
   sql += never_deleted("certificate", of_person + " AND kind = 'training'");
-  sql += never_deleted("revocation",
-                       "SELECT 1 FROM erasure e JOIN certificate c ON c.trainee_id = e.trainee_id"
-                       " WHERE c.id = OLD.certificate_id AND e.kind = 'training'");
+  sql += never_deleted("revocation", kOfCertificate);
   const std::string same = "uuid = NEW.uuid";
   for (const char* table : {"consent", "rating", "signature", "benchmark", "note", "verdict_override", "certificate"}) {
     sql += never_replaced(table, same);
@@ -705,9 +745,7 @@ const char* programme_schema_sql() {
     for (const char* table : {"standing", "assignment"}) {
       sql += never_deleted(table, of_person) + never_replaced(table, "uuid = NEW.uuid");
     }
-    sql += never_deleted("withdrawal",
-                         "SELECT 1 FROM erasure e JOIN assignment a ON a.trainee_id = e.trainee_id"
-                         " WHERE a.id = OLD.assignment_id");
+    sql += never_deleted("withdrawal", kOfAssignment);
     return sql + never_replaced("withdrawal", "uuid = NEW.uuid OR assignment_id = NEW.assignment_id");
   }();
   return kSql.c_str();
@@ -722,6 +760,22 @@ const char* running_rows_schema_sql() {
                                       of_row(attempt, "OLD") + " AND status = 'running'");
     }
     return sql;
+  }();
+  return kSql.c_str();
+}
+
+const char* endings_schema_sql() {
+  static const std::string kSql = [] {
+    const char* const kTables[] = {"erasure", "revocation", "withdrawal"};
+    std::string kept, back, guards;
+    for (const std::string table : kTables) {
+      kept += "CREATE TABLE kept_" + table + " AS SELECT * FROM " + table + ";\nDROP TABLE " + table + ";\n";
+      // A row that breaks the table's own rules is none of this program's: it stays in the backup.
+      back += "INSERT OR IGNORE INTO " + table + " SELECT * FROM kept_" + table + ";\nDROP TABLE kept_" + table + ";\n";
+      guards += never_changed(table) + never_replaced(table, "uuid = NEW.uuid");
+    }
+    return kept + kEndings + back + guards + never_deleted("erasure") + never_deleted("revocation", kOfCertificate) +
+           never_deleted("withdrawal", kOfAssignment);
   }();
   return kSql.c_str();
 }

@@ -3,7 +3,6 @@
 #include <sqlite3.h>
 
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +18,19 @@ std::string database_name(sqlite3* connection) {
   return file == nullptr || *file == '\0' ? "database" : file;
 }
 
+/// The index of the write-ahead log, a small file beside the database, could not be made: the system's own word is not
+/// kept then.
+bool index_has_no_room(sqlite3* connection) {
+  return connection != nullptr && sqlite3_extended_errcode(connection) == SQLITE_IOERR_SHMSIZE;
+}
+
 }  // namespace
+
+bool disk_full(sqlite3* connection, int code) {
+  if ((code & 0xFF) == SQLITE_FULL) return true;
+  if (code == SQLITE_OK || connection == nullptr) return false;
+  return index_has_no_room(connection) || is_disk_full(sqlite3_system_errno(connection));
+}
 
 void raise(sqlite3* connection, int code, std::string_view doing) {
   const std::string detail = connection == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(connection);
@@ -36,11 +47,10 @@ void raise(sqlite3* connection, int code, std::string_view doing) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw EnvironmentError(message + " (another program has held the database too long)");
-    case SQLITE_FULL:
-      throw DiskFull(message);
     default:
-      if (const int why = connection == nullptr ? 0 : sqlite3_system_errno(connection); why == ENOSPC || why == EDQUOT)
-        throw DiskFull(message);
+      if (disk_full(connection, code))
+        throw DiskFull(database_name(connection) + ": " + std::string(doing) + ": the disk is full; make room on it" +
+                       (index_has_no_room(connection) ? ", for without some 100 kB it cannot even be read" : ""));
       throw EnvironmentError(message);
   }
 }

@@ -16,6 +16,9 @@ struct sqlite3_stmt;
 
 namespace trocar::sql {
 
+/// SQLite's result `code` says that the disk has no room left, by its own word or by the system's.
+bool disk_full(sqlite3* connection, int code);
+
 /// Throws the exception that stands for SQLite's result `code` on `connection` (which may be null).
 [[noreturn]] void raise(sqlite3* connection, int code, std::string_view doing);
 

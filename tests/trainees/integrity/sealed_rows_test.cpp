@@ -8,6 +8,8 @@
 #include "trainees/records/assessments.h"
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
+#include "trainees/records/erasure.h"
+#include "trainees/records/programmes.h"
 #include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
@@ -117,6 +119,79 @@ TEST_F(SealedRows, AForgedRevocationTakesNoCertificateAway) {
             "");
   EXPECT_EQ(assessments.certificates_of("T-2").at(0).revoked_utc, "");
   EXPECT_NE(assessments.certificates_of("T-1").at(0).revoked_utc, "");
+}
+
+/// Rows that somebody put in, who has no key, keep nobody from writing the real ones.
+TEST_F(SealedRows, AForgedEndingKeepsTheRealOneNotOut) {
+  Database database(file_);
+  AssessmentStore assessments(database);
+  ProgrammeStore programmes(database);
+  programmes.save("Basics", "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n", kAuthor);
+  const std::string certificate = assessments.certify("T-2", "surface-touch", "L1", "1", "{}", kAuthor).uuid,
+                    assignment = programmes.assign("Basics", "T-2", "", "", kAuthor).uuid,
+                    end = "', 'M', 'put in by somebody', '2026-11-30T21:00:00.000Z' FROM ";
+  const std::vector<std::string> forgeries = {
+      "INSERT INTO revocation (uuid, certificate_id, author, printed, reason, utc) SELECT"
+      " '01a22e40-0000-7000-8000-000000000001', id, '" +
+          end + "certificate WHERE uuid = '" + certificate + "'",
+      "INSERT INTO withdrawal (uuid, assignment_id, author, printed, reason, utc) SELECT"
+      " '01a22e40-0000-7000-8000-000000000002', id, '" +
+          end + "assignment",
+      "INSERT INTO signature (uuid, attempt_id, row_hash, account_uuid, meaning, signer, note, utc) SELECT"
+      " '01a22e40-0000-7000-8000-000000000003', id, row_hash, '0192-account', 'review" +
+          end + "attempt WHERE uuid = '" + attempts_[0] + "'",
+      "INSERT INTO erasure (uuid, trainee_id, author, kind, rule, utc) SELECT '01a22e40-0000-7000-8000-000000000004',"
+      " trainee_id, '', 'training', 'none', '2026-11-30T21:00:00.000Z' FROM person WHERE code = 'T-1'"};
+  for (const std::string& sql : forgeries) EXPECT_EQ(run_outside(file_, sql), "") << sql;
+  assessments.revoke(certificate, kReason, kAuthor);
+  ASSERT_EQ(assessments.certificates_of("T-2").size(), 1U);
+  EXPECT_EQ(assessments.certificates_of("T-2")[0].revoked_reason, kReason);
+  EXPECT_NE(message_of<InputError>([&] { assessments.revoke(certificate, kReason, kAuthor); }).find("was revoked on"),
+            std::string::npos);
+  programmes.withdraw(assignment, "left the course", kAuthor);
+  ASSERT_EQ(programmes.assignments().size(), 1U);
+  EXPECT_EQ(programmes.assignments()[0].withdrawn_reason, "left the course");
+  assessments.sign(attempts_[0], "review", "", kAuthor);
+  EXPECT_NE(message_of<InputError>([&] { assessments.sign(attempts_[0], "review", "", kAuthor); }).find("already"),
+            std::string::npos);
+  EXPECT_EQ(everything_about(database, "T-2").find("put in by somebody"), std::string::npos);
+  erase_trainee(database, "T-1", ErasureKind::kTraining, "request of the person", kAuthor);
+  EXPECT_EQ(sql::query_integer(database.connection(), "SELECT count(*) FROM erasure WHERE row_holds('erasure', id)"),
+            1);
+  for (const char* table : {"revocation", "withdrawal", "erasure"})
+    EXPECT_NE(problems_of(database).find(std::string("records: ") + table + " 01a22e40-"), std::string::npos) << table;
+}
+
+/// Schema 5 makes their tables anew.
+TEST_F(SealedRows, ARecordOfSchemaFourKeepsItsEndings) {
+  const fs::path old = folder_ / "old.db";
+  std::string withdrawn;
+  {
+    Database fourth(old, OpenMode::kCreate, 5000, shipped_migrations().first(4));
+    store_attempt(fourth, sample_start("T-1"), sample_result());
+    TraineeStore(fourth).ensure_trainee("T-9");
+    AssessmentStore assessments(fourth);
+    assessments.revoke(assessments.certify("T-1", "surface-touch", "L1", "1", "{}", kAuthor).uuid, kReason, kAuthor);
+    ProgrammeStore programmes(fourth);
+    programmes.save("Basics", "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n", kAuthor);
+    withdrawn = programmes.assign("Basics", "T-1", "", "", kAuthor).uuid;
+    programmes.withdraw(withdrawn, "left", kAuthor);
+    erase_trainee(fourth, "T-9", ErasureKind::kIdentity, "request of the person", kAuthor);
+    EXPECT_EQ(problems_of(fourth), "");
+  }
+  Database now(old);
+  EXPECT_EQ(now.migration().from, 4);
+  EXPECT_EQ(problems_of(now), "");
+  EXPECT_EQ(AssessmentStore(now).certificates_of("T-1").at(0).revoked_reason, kReason);
+  EXPECT_NE(message_of<InputError>([&] { ProgrammeStore(now).withdraw(withdrawn, "", kAuthor); }).find("before"),
+            std::string::npos);
+  for (const char* table : {"revocation", "withdrawal", "erasure"}) {
+    EXPECT_EQ(sql::query_integer(now.connection(), std::string("SELECT count(*) FROM ") + table), 1) << table;
+    for (const std::string& change :
+         {std::string("DELETE FROM ") + table, std::string("UPDATE ") + table + " SET utc = ''",
+          std::string("INSERT OR REPLACE INTO ") + table + " SELECT * FROM " + table})
+      EXPECT_NE(run_outside(old, change).find(table), std::string::npos) << change;
+  }
 }
 
 /// A decision whose UUID is another's, and more after a NUL.

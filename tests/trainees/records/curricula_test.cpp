@@ -1,6 +1,10 @@
 // Curricula, benchmarks and groups: versions are added, never changed; the newest of a name holds.
 #include "trainees/records/curricula.h"
 
+#include <atomic>
+#include <barrier>
+#include <thread>
+
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
 #include "trainees/integrity/sealed_rows.h"
@@ -130,6 +134,39 @@ TEST_F(Curricula, GroupsAreJoinedAndLeftOnRecord) {
   EXPECT_THROW(store_.join("T-9", "autumn", author_), InputError);
   EXPECT_THROW(store_.join("T-1", "", author_), InputError);
   EXPECT_TRUE(database_.check().empty());
+}
+
+class CurriculaOnDisk : public TemporaryFolder {};
+
+/// What is asked of the newest version is so yet when the next is written.
+TEST_F(CurriculaOnDisk, OfTwoThatSawTheSameVersionOneSaves) {
+  const std::filesystem::path file = folder_ / "t.db";
+  constexpr int kRounds = 20;
+  { const Database made(file); }
+  std::atomic<int> saved = 0, refused = 0;
+  std::barrier together(2);
+  const auto save = [&](const std::string& who) {
+    Database database(file);
+    for (int round = 0; round < kRounds; ++round) {
+      together.arrive_and_wait();
+      try {
+        CurriculumStore(database).add("course", who + std::to_string(round), {"", who},
+                                      [round](const std::optional<Curriculum>& last) {
+                                        if ((last ? last->version : 0) != round) throw InputError("saved meanwhile");
+                                      });
+        ++saved;
+      } catch (const InputError&) {
+        ++refused;
+      }
+      together.arrive_and_wait();
+    }
+  };
+  std::thread other(save, "otto");
+  save("ines");
+  other.join();
+  EXPECT_EQ(saved, kRounds);
+  EXPECT_EQ(refused, kRounds);
+  EXPECT_EQ(sql::query_integer(Database(file).connection(), "SELECT count(*) FROM curriculum"), kRounds);
 }
 
 }  // namespace

@@ -1,10 +1,16 @@
 // A backup is a whole record: it passes the check by itself, wherever it is carried to.
 #include "trainees/records/record_backup.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <fstream>
 
 #include "haptics/digest/digest.h"
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/integrity/station_key.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar::record_backup_test {
 namespace {
@@ -95,6 +101,44 @@ TEST_F(RecordBackup, OverwritesNothingAndLeavesNoPartBehind) {
             }).find("other.backup.anchor"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(other));
+}
+
+TEST_F(RecordBackup, TakesAwayWhatKilledProgramsLeftBesideTheRecord) {
+  for (const char* name : {"t.db.2026-01-01.backup.part", "t.db.2026-01-01.backup.part-journal", "new.backup.part",
+                           "new.backup.part-journal", "t.db.2026-02-02.backup.part", "u.db.2026-01-01.backup.part"})
+    std::ofstream(folder_ / name) << "half a database";
+  const int held = ::open((folder_ / "t.db.2026-02-02.backup.part").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(held, LOCK_EX), 0);
+  back_up(database_, folder_ / "new.backup", BackedUp::kWithoutRecordings);
+  for (const char* gone : {"t.db.2026-01-01.backup.part", "t.db.2026-01-01.backup.part-journal", "new.backup.part",
+                           "new.backup.part-journal"})
+    EXPECT_FALSE(fs::exists(folder_ / gone)) << gone;
+  EXPECT_TRUE(fs::exists(folder_ / "t.db.2026-02-02.backup.part")) << "somebody writes it";
+  EXPECT_TRUE(fs::exists(folder_ / "u.db.2026-01-01.backup.part")) << "another record's";
+  EXPECT_EQ(problems(folder_ / "new.backup"), "");
+  ::close(held);
+}
+
+TEST_F(RecordBackup, SaysThatTheDiskIsFullAndLeavesNothing) {
+  const AttemptId id = recorded("motion");
+  fs::resize_file(id.recording, fs::space(folder_).available + (1U << 30U));  // takes no room itself
+  const auto begin = [&] { back_up(database_, folder_ / "new.backup", BackedUp::kWithRecordings); };
+  EXPECT_NE(message_of<DiskFull>(begin).find("give a place on a larger disk"), std::string::npos);
+  for (const char* name : {"new.backup", "new.backup.part", "new.backup.anchor", "new.backup.key", "new.recordings"})
+    EXPECT_FALSE(fs::exists(folder_ / name)) << name;
+}
+
+/// As root, whom no right keeps from reading it.
+TEST_F(RecordBackup, AKeyOfAnotherUserIsRefusedUnlessTheRecordIsTheirs) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+  const fs::path file = folder_ / "t.db", key = key_path(file);
+  ASSERT_EQ(::chown(key.c_str(), 65534, 65534), 0);
+  EXPECT_NE(message_of<EnvironmentError>([&] { station_key(file); }).find("t.db.key: the station's key belongs to"),
+            std::string::npos);
+  ASSERT_EQ(::chown(file.c_str(), 65534, 65534), 0);
+  EXPECT_TRUE(station_key(file)) << "root looks at somebody's record";
+  ASSERT_EQ(::chown(key.c_str(), 0, 0), 0);
+  EXPECT_TRUE(station_key(file));
 }
 
 TEST_F(RecordBackup, TellsARecordingThatIsGone) {

@@ -2,10 +2,15 @@
 #include "trainees/records/signing.h"
 
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
-#include "trainees/records/curricula.h"
+#include "trainees/records/consents.h"
 #include "trainees/records/demo_record.h"
+#include "trainees/records/erasure.h"
+#include "trainees/records/people_import.h"
+#include "trainees/records/programmes.h"
+#include "trainees/records/standings.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::signing_test {
@@ -71,6 +76,58 @@ TEST_F(Signing, OfADemoBindsNobodyAndIsTaken) {
   CurriculumStore(database_).add("demo-cohort", "# invented", {"", "Demo"});
   TraineeStore(database_).ensure_trainee("T-2");
   EXPECT_THROW(require_signature(database_, ""), InputError) << "a name makes no demo";
+}
+
+class SigningOnDisk : public TemporaryFolder {};
+
+/// What would count nowhere is refused before anything is written, and done once the key is back.
+TEST_F(SigningOnDisk, WithoutTheStationsKeyNothingIsTakenThatCountsOnlySigned) {
+  const std::filesystem::path file = folder_ / "t.db", away = folder_ / "away";
+  const Author author{"0192-account", "Ida Adler"};
+  Database d(file);
+  for (const char* code : {"T-1", "T-2", "T-3"}) TraineeStore(d).ensure_trainee(code);
+  AccountStore(d).add("i.adler", "Ida Adler", Role::kInstructor, "", "correct horse", "");
+  AccountStore(d).add("second", "Second", Role::kInstructor, "", "correct horse", "");
+  ProgrammeStore programmes(d);
+  programmes.save("Basics", "[[step]]\nexercise = \"surface-touch\"\nlevel = \"L1\"\n", author);
+  const std::string held = programmes.assign("Basics", "T-1", "", "", author).uuid;
+  const std::vector<std::pair<const char*, std::function<void()>>> writings = {
+      {"deactivate", [&] { StandingStore(d).set_active({"T-1"}, false, "left", author); }},
+      {"assign", [&] { programmes.assign("Basics", "T-2", "", "", author); }},
+      {"withdraw", [&] { programmes.withdraw(held, "over", author); }},
+      {"add",
+       [&] {
+         add_person(d, {0, "N-1", "Nora", "", ""}, author);
+       }},
+      {"list", [&] { take_people(d, "code,name\nN-2,Nils\n", "list", "", author); }},
+      {"name", [&] { TraineeStore(d).edit("T-2", "Otto", std::nullopt, ""); }},
+      {"account", [&] { AccountStore(d).add("third", "Third", Role::kInstructor, "", "correct horse", ""); }},
+      {"password", [&] { AccountStore(d).set_password("i.adler", "another horse", ""); }},
+      {"disable", [&] { AccountStore(d).set_disabled("second", true, ""); }},
+      {"consent", [&] { ConsentStore(d).record("T-2", "research", true, "I agree.", author); }},
+      {"benchmark",
+       [&] {
+         CurriculumStore(d).add_benchmark(
+             {"", "surface-touch", "L1", "time_s", "six people", "median", "", "", 30, 90, 6}, author);
+       }},
+      {"erasure", [&] { erase_trainee(d, "T-3", ErasureKind::kIdentity, "request of the person", author); }}};
+  const std::string before = d.head();
+  std::filesystem::rename(key_path(file), away);
+  for (const auto& [what, write] : writings)
+    EXPECT_NE(message_of<InputError>(write).find("what is not signed counts nowhere: its key t.db.key is missing"),
+              std::string::npos)
+        << what;
+  write_station_key(file, SigningKey::make());
+  for (const auto& [what, write] : writings)
+    EXPECT_NE(message_of<InputError>(write).find("its key t.db.key is not the one that signs this record"),
+              std::string::npos)
+        << what;
+  EXPECT_EQ(d.head(), before) << "nothing was written";
+  std::filesystem::rename(away, key_path(file));
+  for (const auto& [what, write] : writings) EXPECT_EQ(message_of<InputError>(write), "") << what;
+  EXPECT_FALSE(StandingStore(d).of("T-1").active);
+  EXPECT_TRUE(AccountStore(d).verify("i.adler", "another horse"));
+  EXPECT_EQ(problems_of(d), "");
 }
 
 }  // namespace

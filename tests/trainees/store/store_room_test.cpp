@@ -16,6 +16,7 @@
 #include "trainees/records/consents.h"
 #include "trainees/records/curricula.h"
 #include "trainees/records/erasure.h"
+#include "trainees/store/disk_full.h"
 #include "trainees/store/sqlite_handle.h"
 
 namespace trocar::store_room_test {
@@ -123,6 +124,24 @@ TEST_F(StoreRoom, AFullDiskRefusesEachWholeAndLaterTakesIt) {
     EXPECT_NO_THROW(write.write(database, attempt_)) << write.name << ": there is room again";
     EXPECT_EQ(problems_of(database), "") << write.name;
   }
+}
+
+TEST_F(StoreRoom, WithoutRoomForTheIndexOfItsLogItSaysThatTheDiskIsFull) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &small);
+    const std::string said = message_of<DiskFull>([&] { Database database(file_, OpenMode::kExisting); });
+    const bool clear =
+        said.find("t.db: cannot run a statement: the disk is full; make room on it") != std::string::npos;
+    if (!clear) std::fprintf(stderr, "\"%s\"\n", said.c_str());
+    _exit(clear ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(problems_of(Database(file_)), "") << "there is room again";
 }
 
 TEST_F(StoreRoom, ADamagedPageIsFoundAndSaidWhereItIsRead) {

@@ -29,12 +29,12 @@ std::string signatures(const AttemptView& view, bool demo) {
 }
 
 std::string no_signature_notice(const Frame& frame) {
-  return "<p class=\"warning\">" + shape("integrity") +
-         "You cannot sign, decide or certify: " + escape_html(frame.no_signature) + ". " +
-         (frame.no_signature.starts_with("its key") ? std::string()  // which no page can put back
-          : frame.signed_in                         ? link_html("/password", "Set your own password")
-          : frame.administrator                     ? link_html("/accounts", "Make an account")
-                                                    : std::string()) +
+  return "<p class=\"warning\">" + shape("integrity") + "You cannot sign, decide or certify: " +
+         (frame.lost_key.empty() ? escape_html(frame.no_signature) : "the station's key is missing") + ". " +
+         (!frame.lost_key.empty() ? std::string()  // the top of the page says what to do
+          : frame.signed_in       ? link_html("/password", "Set your own password")
+          : frame.administrator   ? link_html("/accounts", "Make an account")
+                                  : std::string()) +
          "</p>";
 }
 
@@ -80,13 +80,14 @@ std::string certificate_list(const AttemptView& view, bool demo) {
   for (const CitedCertificate& one : view.certificates) {
     const Certificate& c = one.certificate;
     const bool held = c.revoked_utc.empty();
-    out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(c.exercise_id) + " " +
-           escape_html(c.level) + ", " + day_html(c.utc) + ", " + author_html(c.printed, c.author, demo) + ", rules " +
-           escape_html(c.rule_version) + (one.cites ? ", cites this attempt" : "") +
+    const std::string exercise = c.exercise_id == view.result.exercise_id ? view.exercise : c.exercise_id;
+    out += "<li>" + shape(held ? "pass" : "fail") + "Certificate for " + escape_html(exercise + " " + c.level) + ", " +
+           day_html(c.utc) + ", " + author_html(c.printed, c.author, demo) + ", rules " + escape_html(c.rule_version) +
+           (one.cites ? ", cites this attempt" : "") +
            (held ? "" : ". Withdrawn " + day_html(c.revoked_utc) + ": " + verbatim(c.revoked_reason)) + " " +
            link_html("/trainee/" + url_part(view.result.trainee) + "#certificates", "evidence");
     if (held && !one.in_question.empty())
-      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(one.in_question) +
+      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(dated(one.in_question)) +
              ". Look, and withdraw it if it must not stand.</p>";
     out += "</li>";
   }
@@ -99,7 +100,8 @@ std::string certificate_form(const AttemptView& view, const Frame& frame) {
     if (holds(one, view)) return given + why_refused(frame, "certify");
   if (!view.ready) {
     std::string missing;
-    for (const std::string& condition : view.missing) missing += "<li>" + escape_html(sentence(condition)) + "</li>";
+    for (const std::string& condition : view.missing)
+      missing += "<li>" + escape_html(sentence(dated(condition))) + "</li>";
     return given + why_refused(frame, "certify") + "<p>A certificate cannot be given now" +
            (missing.empty() ? ": competence at this exercise and level has not been shown.</p>"
                             : ":</p><ul>" + missing + "</ul>");
@@ -181,7 +183,6 @@ std::string sign_off_section(const AttemptView& view, const Frame& frame) {
 
 std::string attempt_page(const AttemptView& view, Frame frame) {
   frame.title = view.exercise + " " + view.result.level + ", " + view.result.trainee;
-  frame.title_verbatim = true;
   const std::string note_action = "/attempt/" + url_part(view.result.uuid) + "/note";
   return document(
       frame, title(view, frame) + changed_notice(view) + verdict_band(view) + moment_section(view) +

@@ -108,7 +108,7 @@ std::string own_point(const CurvePoint& point, const std::optional<double>& valu
            (point.passed ? kBlue : "#fff") + "\"/>";
   if (!point.decided_by.empty()) mark += decided_mark(point, x, y);
   const std::string by = point.decided_by.empty() ? "" : " by decision of " + point.decided_by;
-  const std::string words = "attempt " + std::to_string(number) + ", " + point.utc.substr(0, 10) + ": " +
+  const std::string words = "attempt " + std::to_string(number) + ", " + dated(point.utc.substr(0, 10)) + ": " +
                             (value ? value_words + (point.passed ? ", passed" : ", not passed") + by
                                    : point.status + ", no score" +
                                          (by.empty()     ? ""
@@ -283,11 +283,11 @@ std::string weeks_svg(const std::vector<std::pair<std::string, double>>& minutes
   for (std::size_t k = 0; k < count; ++k) {
     const auto& [week, minutes] = minutes_by_week[begin + k];
     const double x = axes.left + slot * static_cast<double>(k), top = axes.y(minutes);
-    out += "<g><title>" + escape_html("week of " + week + ": " + fixed_text(minutes, 0) + " min") + "</title>" +
+    out += "<g><title>" + escape_html("week of " + dated(week) + ": " + fixed_text(minutes, 0) + " min") + "</title>" +
            rect(x + 0.12 * slot, top, 0.76 * slot, axes.bottom - top, std::string("fill=\"") + kBlue + "\"") + "</g>";
   }
-  if (count > 0) out += label(axes.left, axes.bottom + 20, minutes_by_week[begin].first);
-  if (count > 1) out += label(axes.right, axes.bottom + 20, "to " + minutes_by_week.back().first, "end");
+  if (count > 0) out += label(axes.left, axes.bottom + 20, dated(minutes_by_week[begin].first));
+  if (count > 1) out += label(axes.right, axes.bottom + 20, "to " + dated(minutes_by_week.back().first), "end");
   return out + "</svg>";
 }
 

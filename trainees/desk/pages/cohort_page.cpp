@@ -67,7 +67,8 @@ std::string card(const CohortView& view, const CardWords& words) {
     const Judgement* why = judgement_of(*who[i], words.flag);
     out += "<li>" + verbatim_link(curve_href(*who[i]), shown_name(*who[i])) + " <span class=\"dim\">" +
            escape_html(who[i]->exercise) + " " + escape_html(who[i]->level) + "</span>" +
-           (why == nullptr || why->evidence.empty() ? "" : "<br/><small>" + escape_html(why->evidence) + "</small>") +
+           (why == nullptr || why->evidence.empty() ? ""
+                                                    : "<br/><small>" + escape_html(dated(why->evidence)) + "</small>") +
            (why == nullptr || why->n == 0 ? "" : "<br/>" + basis_html(*why)) + "</li>";
   }
   out += "</ul>";
@@ -129,7 +130,7 @@ std::string head(const CohortQuestion& asked) {
 std::string row(const CohortEntry& line) {
   std::string states = badge(line.state());
   for (std::size_t i = 1; i < line.judgements.size(); ++i) states += " " + badge(line.judgements[i].flag);
-  const std::string why = line.judgements.empty() ? "" : line.judgements.front().evidence;
+  const std::string why = line.judgements.empty() ? "" : dated(line.judgements.front().evidence);
   return "<tr><th scope=\"row\">" + verbatim_link(curve_href(line), shown_name(line)) +
          (line.name.empty() ? "" : " <small class=\"dim\">" + verbatim(line.code) + "</small>") + "</th><td>" + states +
          (why.empty() ? "" : "<br/><small>" + escape_html(why) + "</small>") +

@@ -75,7 +75,9 @@ std::string editor(const CurriculumView& view, const Frame& frame) {
     out += "<p class=\"notice\" role=\"status\">" + shape("pass") + escape_html(view.saved) + "</p>";
   const std::string size = "maxlength=\"64\" required=\"required\"";
   if (frame.may_write)
-    out += form_begin("/curriculum#editor", frame) + text_field("cur-name", "name", "Name", view.name, size) +
+    out += form_begin("/curriculum#editor", frame) + "<input type=\"hidden\" name=\"seen_name\" value=\"" +
+           escape_html(view.seen_name) + "\"/><input type=\"hidden\" name=\"seen\" value=\"" + escape_html(view.seen) +
+           "\"/>" + text_field("cur-name", "name", "Name", view.name, size) +
            area_field("cur-toml", "toml", "Rules as TOML", view.text, 24,
                       "class=\"code\" spellcheck=\"false\" maxlength=\"100000\" required=\"required\"") +
            "<p class=\"buttons\"><button name=\"do\" value=\"preview\">Who would pass today</button> <button "

@@ -1,5 +1,9 @@
 #include "trainees/desk/pages/desk_page.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "trainees/desk/pages/page_frame.h"
 #include "trainees/markup/html.h"
 
@@ -20,6 +24,19 @@ std::string document(const std::string& title, const std::string& body) {
 std::string given_back(const std::string& written) {
   if (written.empty()) return "";
   return "<p>What you had written, to copy:</p>\n<pre class=\"written\">" + escape_html(written) + "</pre>\n";
+}
+
+/// Fields that are typed anew whenever their form comes back.
+constexpr std::array<std::string_view, 3> kSecret = {"again", "fresh", "password"};
+
+bool is_secret(const std::string& field) { return std::find(kSecret.begin(), kSecret.end(), field) != kSecret.end(); }
+
+std::string secret_words(const std::string& field) {
+  return field == "again" ? "Password again" : field == "fresh" ? "New password" : "Password";
+}
+
+std::string hidden_field(const std::string& name, const std::string& value) {
+  return "<input type=\"hidden\" name=\"" + escape_html(name) + "\" value=\"" + escape_html(value) + "\">\n";
 }
 
 std::string usual_words(int status) {
@@ -96,36 +113,57 @@ std::string status_title(int status) {
   }
 }
 
+namespace {
+std::string page_body(int status, const std::string& why, const std::string& inner_html) {
+  return document(status_title(status), "<h1>" + escape_html(status_title(status)) + "</h1>\n<p class=\"error\">" +
+                                            escape_html(why.empty() ? usual_words(status) : why) + "</p>\n" +
+                                            inner_html +
+                                            "<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" +
+                                            std::to_string(status) + ")</span></p>\n");
+}
+}  // namespace
+
 std::string prose_of(const std::map<std::string, std::string>& form) {
+  std::vector<std::pair<std::string, std::string>> typed;
+  for (const auto& [name, value] : form)
+    if (!value.empty() && name != "do" && name != "token" && !is_secret(name)) typed.emplace_back(name, value);
+  if (typed.size() == 1) return typed.front().second;
   std::string out;
-  for (const char* field : {"text", "note", "reason", "toml"}) {
-    const auto it = form.find(field);
-    if (it != form.end() && !it->second.empty()) out += (out.empty() ? "" : "\n\n") + it->second;
+  for (const auto& [name, value] : typed) {
+    const bool many_lines = value.find('\n') != std::string::npos;
+    out += (out.empty() ? "" : "\n") + name + (many_lines ? ":\n" : ": ") + value;
   }
   return out;
 }
 
 Response error_page(int status, const std::string& why, const std::string& written) {
-  Response out;
-  out.status = status;
-  const std::string title = status_title(status);
-  out.body = document(title, "<h1>" + escape_html(title) + "</h1>\n<p class=\"error\">" +
-                                 escape_html(why.empty() ? usual_words(status) : why) + "</p>\n" + given_back(written) +
-                                 "<p><a href=\"/\">To the first page</a> <span class=\"quiet\">(" +
-                                 std::to_string(status) + ")</span></p>\n");
-  return out;
+  return {.status = status, .body = page_body(status, why, given_back(written))};
+}
+
+Response disk_full_page(const std::string& address, const std::string& token,
+                        const std::map<std::string, std::string>& form) {
+  std::string fields = hidden_field("token", token), asked;
+  for (const auto& [name, value] : form) {
+    if (is_secret(name))
+      asked += "<p><label>" + secret_words(name) + "<br><input name=\"" + name +
+               "\" type=\"password\" maxlength=\"1024\" autocomplete=\"off\" required></label></p>\n";
+    else
+      fields += hidden_field(name, value);
+  }
+  return {.status = 507,
+          .body = page_body(507, "",
+                            given_back(prose_of(form)) + "<form method=\"post\" action=\"" + escape_html(address) +
+                                "\">\n" + fields + asked +
+                                "<p><button type=\"submit\">Send again</button></p>\n</form>\n")};
 }
 
 Response sign_in_page(const SignInForm& form) {
   Response out;
   out.status = form.status;
-  const auto hidden = [](const char* name, const std::string& value) {
-    return std::string("<input type=\"hidden\" name=\"") + name + "\" value=\"" + escape_html(value) + "\">\n";
-  };
   std::string body = "<h1>Trocar: sign in</h1>\n";
   if (!form.message.empty()) body += "<p class=\"error\" role=\"alert\">" + escape_html(form.message) + "</p>\n";
-  body += given_back(form.written) + "<form method=\"post\" action=\"/sign-in\">\n" + hidden("token", form.token) +
-          hidden("next", form.next) +
+  body += given_back(form.written) + "<form method=\"post\" action=\"/sign-in\">\n" +
+          hidden_field("token", form.token) + hidden_field("next", form.next) +
           "<p><label>Login<br><input name=\"login\" maxlength=\"32\" autocomplete=\"username\" autocapitalize=\"none\" "
           "required autofocus "
           "value=\"" +

@@ -15,8 +15,13 @@ std::string status_title(int status);
 /// @param written what the refused form held, given back so that it can be copied; "" for nothing.
 Response error_page(int status, const std::string& why = "", const std::string& written = "");
 
-/// The prose of a form, field after field; never a password.
+/// What was typed into a form, field after field; never a password.
 std::string prose_of(const std::map<std::string, std::string>& form);
+
+/// The disk is full: what the form held, and a button that sends it again; passwords are asked for anew. @param address
+/// that it was sent to, and `token` fits.
+Response disk_full_page(const std::string& address, const std::string& token,
+                        const std::map<std::string, std::string>& form);
 
 struct SignInForm {
   int status = 200;

@@ -56,7 +56,6 @@ std::string film_section(const AttemptView& view, const Frame& frame) {
 std::string film_page(const AttemptView& view, Frame frame) {
   const bool making = view.film.stage == FilmState::Stage::kMaking;
   frame.title = "Film, " + view.exercise + " " + view.result.level + ", " + view.result.trainee;
-  frame.title_verbatim = true;
   if (making) frame.refresh_s = kRefresh_s;
   const std::string every = making ? " data-every=\"" + std::to_string(kRefresh_s) + "\"" : "";
   return document(frame, "<div class=\"title\"><h1>Film</h1><p class=\"dim\">" +

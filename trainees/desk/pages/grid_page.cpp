@@ -238,7 +238,7 @@ std::string reminders_page(const RemindersView& view, Frame frame) {
                                                                        : std::string()),
                                         head_cells({"Trainee", "Groups", "Programme", "Step", "Due", "When", "State",
                                                     "Missing"}),
-                                        rows))));
+                                        rows, "reminders"))));
 }
 
 }  // namespace trocar::review

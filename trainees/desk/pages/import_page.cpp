@@ -21,10 +21,11 @@ const char* fate_shape(RowFate fate) {
 
 std::string import_row(const ImportRow& row) {
   return std::string("<tr") + (row.fate == RowFate::kRefused ? " class=\"grave\"" : "") + ">" +
-         number_cell(std::to_string(row.line)) + "<td>" + shape(fate_shape(row.fate)) + fate_words(row.fate) +
+         number_cell(std::to_string(row.line)) + "<td class=\"long\">" + shape(fate_shape(row.fate)) +
+         fate_words(row.fate) +
+         (row.reason.empty() ? "" : "<br/><small>" + escape_html(sentence(row.reason)) + "</small>") +
          "</td><th scope=\"row\" translate=\"no\">" + escape_html(row.code) + "</th>" + verbatim_cell(row.name) +
-         verbatim_cell(row.email) + verbatim_cell(row.group) + "<td class=\"long\">" +
-         escape_html(sentence(row.reason)) + "</td></tr>";
+         "<td class=\"long\" translate=\"no\">" + escape_html(row.email) + "</td>" + verbatim_cell(row.group) + "</tr>";
 }
 
 std::string import_table(const ImportPreview& preview, bool done) {
@@ -44,7 +45,7 @@ std::string import_table(const ImportPreview& preview, bool done) {
   return remarks + "<p class=\"live\"><strong>" + counts + ".</strong> " +
          (done ? "Done." : "Nothing is written yet.") + "</p>" +
          table(done ? "What was done, refused lines first" : "What would be done, refused lines first",
-               head_cells({">Line", "What", "Code", "Name", "E-mail", "Group", "Why"}), rows);
+               head_cells({">Line", "What", "Code", "Name", "E-mail", "Group"}), rows);
 }
 
 /// After an import: cards of those who are new.

@@ -92,6 +92,11 @@ std::string day_of(const std::string& utc) {
   return std::to_string(day) + " " + kMonths.at(static_cast<std::size_t>(month - 1)) + " " + utc.substr(0, 4);
 }
 
+bool begins_with_file(const std::string& text) {
+  const std::size_t dot = text.find('.'), end = std::min(text.find_first_of(" :"), text.size());
+  return dot < end && dot + 1 < end;
+}
+
 std::string label_for(const std::string& id, const std::string& words) {
   return "<label for=\"" + id + "\">" + escape_html(words) + "</label>";
 }
@@ -141,6 +146,9 @@ std::string document(const Frame& frame, const std::string& main_html) {
          "<a class=\"skip\" href=\"#main\">Skip to the content</a>";
   out +=
       sprite() + top(frame) + paper_line(frame) + "<main id=\"main\">" + central_banner(frame.central, frame.now_utc);
+  if (!frame.lost_key.empty())
+    out += "<p class=\"warning\" role=\"status\">" + shape("integrity") +
+           "This record takes no decisions now: " + escape_html(frame.lost_key) + ".</p>";
   if (!frame.notice.empty()) out += "<p class=\"notice\" role=\"status\">" + escape_html(frame.notice) + "</p>";
   out += main_html +
          "</main><footer><p>Trocar is a training aid, not a medical device. A score judges a run at a simulator; a "
@@ -176,7 +184,7 @@ std::string refused_field(const Frame& frame, const std::string& form) {
 
 std::string sentence(const std::string& message) {
   std::string out = without_folders(message);
-  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z') out[0] = static_cast<char>(out[0] - 32);
+  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z' && !begins_with_file(out)) out[0] = static_cast<char>(out[0] - 32);
   if (!out.empty() && std::string(".!?").find(out.back()) == std::string::npos) out += '.';
   return out;
 }

@@ -35,12 +35,13 @@ struct Frame {
   bool may_write = true;  ///< instructors and administrators
   bool administrator = false;
   std::string no_signature = {};  ///< why who looks cannot sign now; "" when they can (signing.h)
-  bool demo_goes = false;         ///< the demo cohort can be removed from here
-  bool ended = false;             ///< the desk closes: there is nowhere to go from this page
-  bool pdf = false;               ///< PDF of this page can be had
-  int refresh_s = 0;              ///< page asks for itself again
-  std::string notice = {};        ///< what has just been done
-  ReplicaStatus central = {};     ///< of a desk that serves a central record
+  std::string lost_key = {};   ///< that the station's key is missing, for staff (station_key.h); "" while it is there
+  bool demo_goes = false;      ///< the demo cohort can be removed from here
+  bool ended = false;          ///< the desk closes: there is nowhere to go from this page
+  bool pdf = false;            ///< PDF of this page can be had
+  int refresh_s = 0;           ///< page asks for itself again
+  std::string notice = {};     ///< what has just been done
+  ReplicaStatus central = {};  ///< of a desk that serves a central record
   RefusedForm refused = {};
   std::map<std::string, std::string> query = {};  ///< of the page, kept when its language changes
 };
@@ -54,7 +55,8 @@ std::string why_refused(const Frame& frame, const std::string& form);
 std::string unread_rules_notice(const std::string& why);
 /// Attributes that tie the field to that reason; "" when it was not refused.
 std::string refused_field(const Frame& frame, const std::string& form);
-/// A message of the program as a sentence: first letter large, a stop at its end, folders of the machine left out.
+/// A message of the program as a sentence: first letter large unless a file's name begins it, a stop at its end,
+/// folders of the machine left out.
 std::string sentence(const std::string& message);
 
 /// Whole document. @param main_html what stands between header and footer.
@@ -96,8 +98,14 @@ std::string basis_html(const Judgement& judgement);  ///< small and dim
 /// "0.84", or "not known yet".
 std::string reliability_text(const std::optional<double>& reliability);
 
-/// A certificate's evidence (JSON) as a sentence; text that is no JSON object stays as it is.
-std::string evidence_text(const std::string& json);
+/// A text of the program with its days, "2026-11-30", as pages write them: "30 Nov 2026".
+std::string dated(const std::string& text);
+
+/// A link that names an attempt, by its UUID.
+using AttemptNames = std::function<std::string(const std::string& uuid)>;
+/// A certificate's evidence (JSON) in words, what it cites as links, digits folded away; text that is no JSON object
+/// stays as it is.
+std::string evidence_html(const std::string& json, const AttemptNames& named);
 
 /// A form that posts, with the token. @param action_html already escaped.
 std::string form_begin(const std::string& action_html, const Frame& frame);

@@ -61,11 +61,11 @@ std::string whom(const Assignment& one) {
 }
 
 std::string withdraw_form(const Assignment& one, const Frame& frame) {
-  const std::string form = "withdraw-" + one.uuid, words = one.programme + " from " + one.group + one.trainee;
+  const std::string form = "withdraw-" + one.uuid;
   return std::string("<details") + (frame.refused.form == form ? " open=\"open\"" : "") +
-         "><summary>Withdraw<span class=\"unseen\" translate=\"no\"> " + escape_html(words) + "</span></summary>" +
-         form_begin("/programmes/withdraw", frame) + "<input type=\"hidden\" name=\"assignment\" value=\"" +
-         escape_html(one.uuid) + "\"/>" +
+         "><summary>Withdraw<span class=\"unseen\"> " + verbatim(one.programme) + " from " +
+         verbatim(one.group + one.trainee) + "</span></summary>" + form_begin("/programmes/withdraw", frame) +
+         "<input type=\"hidden\" name=\"assignment\" value=\"" + escape_html(one.uuid) + "\"/>" +
          text_field("w-" + one.uuid, "reason", "Reason (may stay empty)", kept(frame, form, "reason"),
                     "maxlength=\"200\"" + refused_field(frame, form)) +
          why_refused(frame, form) + "<p><button class=\"danger\">Withdraw</button></p></form></details>";
@@ -87,7 +87,7 @@ std::string assigned(const ProgrammesView& view, const Frame& frame) {
               (one.withdrawn_reason.empty() ? "" : ": " + verbatim(one.withdrawn_reason)) + "</td></tr>";
   }
   const auto listed = [](const char* caption, const char* last, const std::string& rows) {
-    return table(caption, head_cells({"Programme", "To", "By", "Given", last}), rows);
+    return table(caption, head_cells({"Programme", "To", "Due", "Given", last}), rows);
   };
   return (held.empty() ? "<p>Nothing is assigned.</p>" : listed("Assignments that hold, newest first", "", held)) +
          (gone.empty() ? ""

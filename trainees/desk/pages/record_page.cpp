@@ -36,11 +36,12 @@ std::string recordings_checked(RecordingsChecked checked, const std::vector<std:
   std::erase_if(checked.problems,
                 [&](const std::string& problem) { return std::find(told.begin(), told.end(), problem) != told.end(); });
   if (!checked.finished_utc.empty() && (sound || !checked.problems.empty()))
-    out = sound ? "<p class=\"notice\">" + shape("pass") +
-                      "Each recording is its attempt's and gives the stored score (" +
-                      escape_html(checked.finished_utc.substr(0, 10) + ", " + checked.finished_utc.substr(11, 5)) +
-                      " UTC).</p>"
-                : problem_list(checked.problems);
+    out = sound
+              ? "<p class=\"notice\">" + shape("pass") +
+                    "Each recording is its attempt's and gives the stored score (" +
+                    escape_html(dated(checked.finished_utc.substr(0, 10)) + ", " + checked.finished_utc.substr(11, 5)) +
+                    " UTC).</p>"
+              : problem_list(checked.problems);
   if (checked.running)
     out += "<p class=\"dim\">Grading every attempt again from its recording: " + std::to_string(checked.done) + " of " +
            std::to_string(checked.all) + ".</p>";
@@ -94,10 +95,10 @@ std::string audit_filters(const AuditView& view) {
          "<p class=\"field\"><button>Show</button> " + link_html("/audit", "Reset") + "</p></form>";
 }
 
-std::string trail_clock_notice(const AuditView& view) {
-  if (view.set_back == 0) return "";
+std::string trail_clock_notice(std::size_t set_back) {
+  if (set_back == 0) return "";
   return "<p class=\"warning\">" + shape("integrity") + "The clock of this machine was set back " +
-         plural(static_cast<std::int64_t>(view.set_back), "time", "times") +
+         plural(static_cast<std::int64_t>(set_back), "time", "times") +
          ". Entries stand in the order in which they were written and decisions hold in that order; times around "
          "those places cannot be trusted.</p>";
 }
@@ -128,15 +129,16 @@ std::string record_page(const RecordView& view, Frame frame) {
       fact("Schema", std::to_string(view.schema)) + fact("Program", view.program.empty() ? "unknown" : view.program) +
       fact("Size", size_text(view.database_bytes)) + fact("Recordings", size_text(view.recordings_bytes)) +
       fact("Last backup", view.backups.empty() ? "none here"
-                                               : view.backups.front().utc.substr(0, 10) + ", " +
+                                               : dated(view.backups.front().utc.substr(0, 10)) + ", " +
                                                      view.backups.front().utc.substr(11, 5) + " UTC") +
       "</dl>" + "<dl class=\"facts\">";
   for (const auto& [what, count] : view.counts) out += fact(what, std::to_string(count));
   out += "</dl><dl class=\"facts\">" +
          fact("Head of the audit trail: noted elsewhere, it shows any later change", view.head, true) + "</dl>";
   return document(frame, "<div class=\"title\"><h1>Record</h1></div>" + parts("/record") +
-                             section("facts", "What is kept", out) + "<div class=\"two even\"><div>" +
-                             check_section(view, frame) + "</div><div>" + backup_section(view, frame) + "</div></div>");
+                             trail_clock_notice(view.set_back) + section("facts", "What is kept", out) +
+                             "<div class=\"two even\"><div>" + check_section(view, frame) + "</div><div>" +
+                             backup_section(view, frame) + "</div></div>");
 }
 
 namespace {
@@ -162,7 +164,8 @@ std::string audit_page(const AuditView& view, Frame frame) {
             (entry.before_utc.empty()
                  ? ""
                  : " <span class=\"tag\">clock set back from " + date_html(entry.before_utc) + "</span>") +
-            "</td>" + verbatim_cell(entry.who) + cell(entry.action) + subject_cell(entry) + "<td class=\"mono\">" +
+            "</td>" + (entry.named ? verbatim_cell(entry.who) : cell(entry.who)) + cell(entry.action) +
+            subject_cell(entry) + "<td class=\"mono\">" +
             escape_html(entry.detail.size() > 40 ? entry.detail.substr(0, 16) + "\xE2\x80\xA6" : entry.detail) +
             "</td></tr>";
   }
@@ -174,7 +177,7 @@ std::string audit_page(const AuditView& view, Frame frame) {
       "before it.</p></div>" +
           parts("/audit") +
           section("trail", plural(view.total, "entry", "entries"),
-                  trail_clock_notice(view) + audit_filters(view) +
+                  trail_clock_notice(view.set_back) + audit_filters(view) +
                       table("Newest first; times are UTC",
                             head_cells({">No.", "When", "Done by", "Action", "Of", "Detail"}), rows, "audit") +
                       audit_pages(view)));

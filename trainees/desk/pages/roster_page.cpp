@@ -122,6 +122,11 @@ std::string person_page(const PersonView& view, Frame frame) {
   frame.title = shown_person(one);
   frame.title_verbatim = true;
   const std::string form = "person";
+  /// What the form showed before anything was typed.
+  const auto seen_field = [&](const char* name, const std::string& value) {
+    return std::string("<input type=\"hidden\" name=\"") + name + "\" value=\"" +
+           escape_html(kept(frame, form, name, value)) + "\"/>";
+  };
   std::string groups;
   for (const std::string& group : one.groups) groups += (groups.empty() ? "" : ", ") + group;
   const Standing& standing = view.standing;
@@ -136,7 +141,9 @@ std::string person_page(const PersonView& view, Frame frame) {
           (groups.empty() ? "" : ", " + verbatim(groups)) + "</p><p class=\"files\">" +
           link_html("/trainee/" + url_part(one.code), "Attempts") + link_html("/roster", "Roster") + "</p></div>" +
           section("change", "Name and address",
-                  form_begin("/roster/person" + query_html({{"code", one.code}}), frame) + "<div class=\"fields\">" +
+                  form_begin("/roster/person" + query_html({{"code", one.code}}), frame) +
+                      seen_field("seen_name", one.name) + seen_field("seen_email", one.email) +
+                      "<div class=\"fields\">" +
                       text_field("c-name", "name", "Name", kept(frame, form, "name", one.name),
                                  "maxlength=\"100\" autocomplete=\"off\"" + refused_field(frame, form)) +
                       text_field("c-email", "email", "E-mail", kept(frame, form, "email", one.email),

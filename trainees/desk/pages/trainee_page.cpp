@@ -59,7 +59,7 @@ std::string judgements(const CurveView& curve) {
   if (curve.judgements.empty()) return "<p>" + badge(Flag::kLearning) + " No judgement yet.</p>";
   std::string out = "<ul class=\"judgements\">";
   for (const Judgement& j : curve.judgements)
-    out += "<li>" + badge(j.flag) + " " + escape_html(j.evidence) + " " + basis_html(j) + "</li>";
+    out += "<li>" + badge(j.flag) + " " + escape_html(dated(j.evidence)) + " " + basis_html(j) + "</li>";
   return out + "</ul>";
 }
 
@@ -158,7 +158,7 @@ std::string attempts_table(const TraineeView& view) {
                                   : "Attempts " + std::to_string(part.first) + " to " +
                                         std::to_string(part.first + static_cast<int>(part.shown.size()) - 1) + " of " +
                                         std::to_string(part.all) + ", newest first";
-  return table(caption, head_cells({"Attempt", ">Try", "When", "Ended", ">Score", "Result", "Why"}), rows) +
+  return table(caption, head_cells({"Attempt", ">Try", "When", "Ended", ">Score", "Result", "Why"}), rows, "tries") +
          attempts_pages(view.curves[view.chosen], part.page, part.pages);
 }
 
@@ -175,7 +175,24 @@ std::string ability(const TraineeView& view) {
          "easier in 73 of 100 attempts.</p>";
 }
 
+/// An attempt of theirs as a link: "attempt no. 12", and its day.
+std::string attempt_link(const TraineeView& view, const std::string& uuid) {
+  const std::string page = "/attempt/" + url_part(uuid);
+  for (const CurveView& curve : view.curves)
+    for (const CurvePoint& point : curve.points)
+      if (point.uuid == uuid && point.number > 0)
+        return link_html(page, "attempt no. " + std::to_string(point.number)) + ", " + day_html(point.utc);
+  return link_html(page, "an attempt");
+}
+
+std::string certified_title(const TraineeView& view, const Certificate& certificate) {
+  for (const CurveView& curve : view.curves)
+    if (curve.key.exercise_id == certificate.exercise_id) return curve.title + " " + certificate.level;
+  return certificate.exercise_id + " " + certificate.level;
+}
+
 std::string certificates(const TraineeView& view, const Frame& frame) {
+  const auto named = [&view](const std::string& uuid) { return attempt_link(view, uuid); };
   if (view.certificates.empty()) return "<p>None yet. A certificate is given on an attempt's page, by a person.</p>";
   std::string out;
   int n = 0;
@@ -183,12 +200,11 @@ std::string certificates(const TraineeView& view, const Frame& frame) {
     const bool held = c.revoked_utc.empty();
     ++n;
     out += std::string("<article class=\"certificate") + (held ? "" : " withdrawn") + "\"><h3>" +
-           shape(held ? "pass" : "fail") + escape_html(c.exercise_id) + " " + escape_html(c.level) +
-           (held ? "" : " (withdrawn)") + "</h3><p>" + day_html(c.utc) + ", " +
-           author_html(c.printed, c.author, frame.demo) + ", rules " + escape_html(c.rule_version) + "</p><p><small>" +
-           escape_html(evidence_text(c.evidence)) + "</small></p>";
+           shape(held ? "pass" : "fail") + escape_html(certified_title(view, c)) + (held ? "" : " (withdrawn)") +
+           "</h3><p>" + day_html(c.utc) + ", " + author_html(c.printed, c.author, frame.demo) + ", rules " +
+           escape_html(c.rule_version) + "</p>" + evidence_html(c.evidence, named);
     if (const auto shaken = view.shaken.find(c.uuid); shaken != view.shaken.end())
-      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(shaken->second) +
+      out += "<p class=\"warning\">" + shape("in-question") + "In question: " + escape_html(dated(shaken->second)) +
              ". Look, and withdraw it if it must not stand.</p>";
     if (frame.pdf)
       out += "<p class=\"files\">" +

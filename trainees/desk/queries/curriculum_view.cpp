@@ -234,7 +234,7 @@ void refuse_taken_version(Desk& desk, const std::string& text, const ProgressRul
     throw InputError("version \"" + rules.version + "\" is that of another text, " + by +
                      "; every decision names its version, so give this text one of its own");
   };
-  for (const Curriculum& kept : CurriculumStore(desk.database).list())
+  for (const Curriculum& kept : CurriculumStore(desk.database).list(true))
     if (kept.toml != text && own_version_of(kept) == rules.version)
       taken("\"" + kept.name + "\", saved on " + kept.utc.substr(0, 10) + " as no. " + std::to_string(kept.version));
   const std::string& shipped = desk.sources.shipped_rules;
@@ -261,6 +261,8 @@ CurriculumView curriculum_view(Desk& desk, const Request& request) {
   if (!found)
     throw InputError("no rules of the name \"" + view.name + "\"" +
                      (version.empty() ? "" : " were saved as no. " + version) + " are kept here");
+  view.seen_name = view.name;
+  if (const auto newest = store.newest(view.name)) view.seen = newest->uuid;
   const ProgressRules rules = rules_in_force(desk.database);
   view.rules_version = rules.version;
   view.rules_unread = rules.unread;

@@ -72,9 +72,9 @@ std::set<std::int64_t> training_erased(sqlite3* connection) {
 }
 
 bool of_erased(sqlite3* connection, const std::string& attempt_uuid) {
-  sql::Statement row(
-      connection,
-      "SELECT 1 FROM attempt a JOIN erasure e ON e.trainee_id = a.trainee_id WHERE a.uuid = ? AND e.kind = 'training'");
+  sql::Statement row(connection,
+                     "SELECT 1 FROM attempt a JOIN erasure e ON e.trainee_id = a.trainee_id WHERE a.uuid = ? AND"
+                     " e.kind = 'training' AND row_holds('erasure', e.id)");
   return row.bind(attempt_uuid).step();
 }
 

@@ -12,6 +12,7 @@
 #include "trainees/desk/queries/level_reader.h"
 #include "trainees/desk/queries/programme_query.h"
 #include "trainees/desk/server/desk_memory.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/markup/html.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/signing.h"
@@ -217,6 +218,7 @@ Frame frame_of(const Request& request, const Desk& desk) {
   if (desk.sources.central) frame.central = desk.sources.central();
   frame.signed_in = request.account && !request.account->uuid.empty();
   if (frame.may_write) frame.no_signature = why_no_signature(desk.database, author_of(request).account_uuid);
+  if (frame.may_write) frame.lost_key = lost_key(desk.database.connection());
   frame.administrator = request.account && request.account->role == Role::kAdministrator;
   frame.demo_goes = frame.administrator && desk.demo && desk.sources.remove_demo;
   return frame;
@@ -238,6 +240,13 @@ std::string exercise_title(Database& database, const std::string& id) {
   sql::Statement query(database.connection(), "SELECT title FROM exercise WHERE id = ?1");
   query.bind(id);
   return query.step() && !query.text(0).empty() ? query.text(0) : id;
+}
+
+std::map<std::string, std::string> exercise_titles(Desk& desk) {
+  const std::vector<Choice> tried = exercise_choices(desk.database);
+  std::map<std::string, std::string> out(tried.begin(), tried.end());
+  for (const ExerciseLevels& one : desk.sources.exercises) out[one.id] = one.title;
+  return out;
 }
 
 std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column) {
@@ -337,8 +346,7 @@ TraineeView trainee_view(Desk& desk, const Request& request) {
   view.code = picture.code;
   view.name = picture.name;
   view.groups = picture.groups;
-  const std::vector<Choice> exercises = exercise_choices(desk.database);
-  const std::map<std::string, std::string> titles(exercises.begin(), exercises.end());
+  const std::map<std::string, std::string> titles = exercise_titles(desk);
   LevelReader levels(desk);
   std::vector<NewestAttempts> newest;
   for (const CurveDetail& curve : picture.curves) {

@@ -1,6 +1,7 @@
 // From the database and a request to what a page shows. Thread: that of the Database.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "trainees/desk/pages/page_frame.h"
@@ -54,6 +55,8 @@ std::vector<Choice> exercise_choices(Database& database);
 /// Exercise and level of all attempts, each once.
 std::vector<std::pair<std::string, std::string>> tried_levels(Database& database);
 std::string exercise_title(Database& database, const std::string& id);
+/// By id, those of the program first: what nobody has tried yet has a title too.
+std::map<std::string, std::string> exercise_titles(Desk& desk);
 std::vector<std::string> distinct_attempt_values(Database& database, const std::string& column);  ///< level or hand
 
 }  // namespace trocar::review

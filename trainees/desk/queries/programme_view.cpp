@@ -14,14 +14,6 @@ std::vector<std::string> names_of(const std::vector<KeptProgramme>& programmes) 
   return out;
 }
 
-/// Titles of the program first, for what nobody has tried yet.
-StepTitles titles_of(Desk& desk) {
-  StepTitles out;
-  for (const auto& [id, title] : exercise_choices(desk.database)) out[id] = title;
-  for (const ExerciseLevels& one : desk.sources.exercises) out[one.id] = one.title;
-  return out;
-}
-
 /// Every level of every exercise: of the program, and what the record has besides.
 std::vector<Choice> step_choices(Desk& desk) {
   std::vector<Choice> out;
@@ -32,7 +24,7 @@ std::vector<Choice> step_choices(Desk& desk) {
   };
   for (const ExerciseLevels& one : desk.sources.exercises)
     for (const std::string& level : one.levels) add(one.id, one.title, level);
-  const StepTitles titles = titles_of(desk);
+  const StepTitles titles = exercise_titles(desk);
   for (const auto& [id, level] : tried_levels(desk.database)) add(id, titles.at(id), level);
   return out;
 }
@@ -159,7 +151,7 @@ GridView grid_view(Desk& desk, const Request& request) {
   view.asked = {argument(request.query, "programme", view.programmes.empty() ? "" : view.programmes.front()),
                 argument(request.query, "group"), argument(request.query, "state"),
                 argument(request.query, "deactivated") == "yes", whole_number(argument(request.query, "page"), 1)};
-  view.titles = titles_of(desk);
+  view.titles = exercise_titles(desk);
   if (view.asked.programme.empty()) {
     view.problem = "There is no programme yet.";
     return view;
@@ -176,7 +168,7 @@ RemindersView reminders_view(Desk& desk, const Request& request) {
   view.days = argument(request.query, "days") == "0" ? 0 : whole_number(argument(request.query, "days"), 14);
   view.programmes = names_of(ProgrammeStore(desk.database).list());
   view.groups = CurriculumStore(desk.database).groups();
-  view.titles = titles_of(desk);
+  view.titles = exercise_titles(desk);
   view.lines = reminders(desk.database, view.programme, view.group, view.days, request.now_utc);
   return view;
 }

@@ -19,7 +19,7 @@ constexpr const char* kCells =
     "BY attempt_by_curve"
     " LEFT JOIN score s INDEXED BY score_first ON s.attempt_id = a.id AND s.revision = 0"
     " WHERE a.status IN ('completed', 'timeout', 'aborted') AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure "
-    "WHERE kind = 'training')"
+    "WHERE kind = 'training' AND row_holds('erasure', id))"
     " GROUP BY a.exercise_id, a.level, a.hand,"
     " substr(a.ruleset_sha256, 1, 16), a.trainee_id";
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "trainees/integrity/audit.h"
+#include "trainees/progress/programme.h"
 #include "trainees/records/erasure.h"
 #include "trainees/records/record_backup.h"
 #include "trainees/records/trainee_store.h"
@@ -89,7 +90,7 @@ constexpr const char* kSubjects[] = {
     " '#certificates' FROM revocation r JOIN certificate c ON c.id = r.certificate_id JOIN known_trainee k ON"
     " k.id = c.trainee_id WHERE r.uuid = ?",
     "SELECT 'account ' || login, '/accounts' FROM account WHERE uuid = ?",
-    "SELECT name || ', version ' || version, '/curriculum' FROM curriculum WHERE uuid = ?",
+    "SELECT name || ', version ' || version, '/curriculum', toml, name FROM curriculum WHERE uuid = ?",
     "SELECT 'benchmark of ' || exercise_id || ' ' || level, '/curriculum' FROM benchmark WHERE uuid = ?",
     "SELECT CASE active WHEN 1 THEN 'reactivated: ' ELSE 'deactivated: ' END || k.code, '/trainee/' || k.code FROM"
     " standing s JOIN known_trainee k ON k.id = s.trainee_id WHERE s.uuid = ?",
@@ -111,6 +112,10 @@ void add_subjects(sqlite3* connection, std::vector<AuditEntry>& entries) {
       if (query.bind(entry.subject).step()) {
         entry.words = query.text(0);
         entry.page = query.text(1);
+        if (entry.page == "/curriculum" && entry.action == "curriculum added" && is_programme(query.text(2))) {
+          entry.words = "programme " + entry.words;
+          entry.page = "/programme?name=" + url_part(query.text(3));
+        }
       }
       query.run();
       if (!entry.words.empty()) break;
@@ -151,6 +156,7 @@ RecordView record_view(const Database& database, const std::string& program) {
   out.schema = database.schema_version();
   out.head = database.head();
   sqlite3* connection = database.connection();
+  out.set_back = clock_set_back(connection).size();
   const std::pair<const char*, const char*> kCounts[] = {
       {"trainees", "SELECT count(*) FROM person"},
       {"attempts", "SELECT count(*) FROM attempt WHERE status <> 'running'"},
@@ -185,7 +191,7 @@ AuditView audit_view(const Database& database, const AuditQuestion& asked) {
   rows.bind(asked.person).bind(asked.action).bind(kAuditOnPage).bind((out.asked.page - 1) * kAuditOnPage);
   while (rows.step())
     out.entries.push_back({rows.integer(0), rows.text(1), name_of_actor(rows.text(2), rows.text(6)), rows.text(3),
-                           rows.text(4), rows.text(5)});
+                           rows.text(4), rows.text(5), !rows.text(6).empty()});
   add_subjects(connection, out.entries);
   const std::vector<ClockSetBack> steps = clock_set_back(connection);
   out.set_back = steps.size();

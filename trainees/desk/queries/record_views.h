@@ -34,6 +34,7 @@ struct RecordView {
   std::vector<BackupFile> backups = {};                   ///< beside the database, newest first
   std::optional<std::vector<std::string>> problems = {};  ///< of a check just made; empty: sound
   std::vector<std::string> remarks = {};                  ///< of that check, no problems
+  std::size_t set_back = 0;                               ///< how often the clock was, in the whole trail
   std::optional<RecordingsChecked> recordings = {};       ///< graded again in the background
 };
 
@@ -45,6 +46,7 @@ struct AuditQuestion {
 struct AuditEntry {
   std::int64_t position = 0;
   std::string utc = {}, who = {}, action = {}, subject = {}, detail = {};
+  bool named = true;            ///< `who` is an account's name, not words for what has none
   std::string before_utc = {};  ///< where the clock was set back before it: what it had said
   std::string words = {};  ///< what the subject is, for people: "attempt no. 12 of T-7"; "" where it says so itself
   std::string page = {};   ///< path of the page about it, "" where there is none

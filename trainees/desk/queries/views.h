@@ -280,6 +280,7 @@ struct CurriculumView {
   std::string rules_version = {};  ///< in force
   std::string rules_unread = {};   ///< why newer ones are not
   std::string name = "standard", text = {}, problem = {}, saved = {};
+  std::string seen_name = {}, seen = {};  ///< name that the form was made from, UUID of its newest version
   std::optional<std::vector<PassPreview>> preview = {};
   std::vector<Benchmark> benchmarks = {};
   std::optional<BenchmarkProposal> proposal = {};

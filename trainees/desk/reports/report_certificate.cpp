@@ -119,7 +119,7 @@ printed::CertificateSheet certificate_sheet(const CertificateView& view, const R
   out.uuid = c.uuid;
   if (!c.revoked_utc.empty()) out.withdrawn = "on " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason;
   out.newest_utc = std::max(c.utc, c.revoked_utc);
-  out.in_question = view.in_question;
+  out.in_question = dated(view.in_question);
   out.demo = setting.demo;
   return out;
 }

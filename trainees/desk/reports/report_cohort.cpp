@@ -117,7 +117,8 @@ Table trainee_table(const std::vector<CohortEntry>& lines) {
     const Judgement* j = line.judgements.empty() ? nullptr : &line.judgements.front();
     std::string state = flag_words(line.state());
     for (std::size_t i = 1; i < line.judgements.size(); ++i) state += ", " + flag_words(line.judgements[i].flag);
-    if (j != nullptr && !j->evidence.empty()) state += "\n" + j->evidence + " (n = " + std::to_string(j->n) + ")";
+    if (j != nullptr && !j->evidence.empty())
+      state += "\n" + dated(j->evidence) + " (n = " + std::to_string(j->n) + ")";
     table.rows.push_back(
         {shown_name(line) + (line.name.empty() ? "" : "\n" + line.code),
          line.hand.empty() ? line.exercise : curve_words(line.exercise, line.level, line.hand),
@@ -223,7 +224,7 @@ Table certificate_table(const CohortReportView& view, const std::vector<CohortEn
     if (line == lines.end()) continue;
     table.rows.push_back(
         {shown_name(*line), line->exercise + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version,
-         view.shaken.contains(c.uuid) ? Cell("in question: " + view.shaken.at(c.uuid), Tone::kBad)
+         view.shaken.contains(c.uuid) ? Cell("in question: " + dated(view.shaken.at(c.uuid)), Tone::kBad)
          : c.revoked_utc.empty()
              ? Cell("holds", Tone::kGood)
              : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad)});

@@ -88,7 +88,7 @@ Table standing(const TraineeView& view) {
     std::string why;
     for (const Judgement& j : curve.judgements)
       why += (why.empty() ? "" : "\n") + (curve.judgements.size() > 1 ? flag_words(j.flag) + ": " : std::string()) +
-             j.evidence + " (n = " + std::to_string(j.n) + ", rules " + j.rule_version + ")";
+             dated(j.evidence) + " (n = " + std::to_string(j.n) + ", rules " + j.rule_version + ")";
     std::vector<double> scores;
     for (const CurvePoint& point : curve.points)
       if (point.score) scores.push_back(*point.score);
@@ -126,8 +126,8 @@ Table certificate_table(const TraineeView& view) {
       if (curve.key.exercise_id == c.exercise_id) title = curve.title;
     const bool holds = c.revoked_utc.empty();
     const auto shaken = view.shaken.find(c.uuid);
-    const Cell held =
-        shaken == view.shaken.end() ? Cell("holds", Tone::kGood) : Cell("in question: " + shaken->second, Tone::kBad);
+    const Cell held = shaken == view.shaken.end() ? Cell("holds", Tone::kGood)
+                                                  : Cell("in question: " + dated(shaken->second), Tone::kBad);
     table.rows.push_back(
         {title + " " + c.level, printed::day_text(c.utc), c.printed, c.rule_version, evidence_words(c.evidence),
          holds ? held : Cell("WITHDRAWN " + printed::day_text(c.revoked_utc) + ": " + c.revoked_reason, Tone::kBad),
@@ -169,9 +169,9 @@ void add_curve(std::vector<Block>& out, const CurveView& curve) {
   const Competence competence = competence_of(curve.cusum);
   out.emplace_back(Heading{words_of(curve), 1, true});
   for (const Judgement& j : curve.judgements)
-    out.emplace_back(Paragraph{
-        flag_words(j.flag) + ": " + j.evidence + " (n = " + std::to_string(j.n) + ", rules " + j.rule_version + ")",
-        tone_of(j.flag), true});
+    out.emplace_back(Paragraph{flag_words(j.flag) + ": " + dated(j.evidence) + " (n = " + std::to_string(j.n) +
+                                   ", rules " + j.rule_version + ")",
+                               tone_of(j.flag), true});
   out.emplace_back(printed::Facts{
       {{"Tries", std::to_string(curve.points.size())},
        {"Graded", std::to_string(curve.graded)},

@@ -4,11 +4,12 @@
 #include "trainees/desk/queries/desk_views.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/routes/page_routes.h"
+#include "trainees/desk/server/path_redaction.h"
 #include "trainees/integrity/audit.h"
-#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/attempt_store.h"
 #include "trainees/records/record_backup.h"
+#include "trainees/store/disk_full.h"
 
 namespace trocar::review {
 namespace {
@@ -73,7 +74,6 @@ Response set_disabled(const Request& request, Desk& desk, bool disabled) {
 RecordView record_of(Desk& desk) {
   RecordView view = record_view(desk.database, desk.sources.program);
   if (desk.sources.recordings_checked) view.recordings = desk.sources.recordings_checked();
-  if (const std::string lost = lost_key(desk.database.connection()); !lost.empty()) view.remarks.push_back(lost);
   return view;
 }
 
@@ -91,6 +91,13 @@ Response check(const Request& request, Desk& desk) {
   return html(record_page(view, frame_of(request, desk)));
 }
 
+/// The record's page, which says why there is no backup.
+Response backup_refusal(const Request& request, Desk& desk, int status, const std::string& why) {
+  Frame frame = frame_of(request, desk);
+  frame.refused = {"backup", without_folders(why, desk.database.file()), {}};
+  return html(record_page(record_of(desk), frame), status);
+}
+
 Response backup(const Request& request, Desk& desk) {
   try {
     if (desk.database.in_memory()) throw InputError("this record is kept in memory and has no file to copy");
@@ -100,9 +107,11 @@ Response backup(const Request& request, Desk& desk) {
     back_up(desk.database, desk.database.file().string() + "." + time + ".backup",
             whole ? BackedUp::kWithRecordings : BackedUp::kWithoutRecordings);
   } catch (const InputError& error) {
-    Frame frame = frame_of(request, desk);
-    frame.refused = {"backup", error.what(), {}};
-    return html(record_page(record_of(desk), frame), 400);
+    return backup_refusal(request, desk, 400, error.what());
+  } catch (const DiskFull& error) {
+    return backup_refusal(request, desk, 507, error.what());
+  } catch (const EnvironmentError& error) {
+    return backup_refusal(request, desk, 503, error.what());
   }
   return see("/record#backups");
 }

@@ -19,18 +19,30 @@ Response show(const Request& request, Desk& desk) {
   return curriculum_answer(curriculum_view(desk, request), request, desk);
 }
 
+/// What another desk has saved since the form was made is not lost; the same text again is no loss.
+void refuse_unseen(const CurriculumView& view, const std::optional<Curriculum>& last) {
+  if (!last || last->toml == view.text || (view.seen_name == view.name && view.seen == last->uuid)) return;
+  throw InputError("rules \"" + view.name + "\": no. " + std::to_string(last->version) +
+                   " is kept here, and your text was not made from it; open it, and repeat what you changed");
+}
+
 /// Previews or saves; a text that cannot be read comes back with what is wrong and where.
 Response rules(const Request& request, Desk& desk) {
   CurriculumView view = curriculum_view(desk, request);
   view.name = argument(request.form, "name");
   view.text = argument(request.form, "toml");
+  view.seen_name = argument(request.form, "seen_name");
+  view.seen = argument(request.form, "seen");
   try {
     const ProgressRules read = read_progress_rules(view.text, view.name);
     if (argument(request.form, "do") == "save") {
-      refuse_taken_version(desk, view.text, read);
-      if (const auto last = CurriculumStore(desk.database).newest(view.name); last && is_programme(last->toml))
-        throw InputError("\"" + view.name + "\": is the name of a programme; give the rules another");
-      CurriculumStore(desk.database).add(view.name, view.text, author_of(request));
+      CurriculumStore(desk.database)
+          .add(view.name, view.text, author_of(request), [&](const std::optional<Curriculum>& last) {
+            if (last && is_programme(last->toml))
+              throw InputError("\"" + view.name + "\": is the name of a programme; give the rules another");
+            refuse_taken_version(desk, view.text, read);
+            refuse_unseen(view, last);
+          });
       return see("/curriculum?name=" + url_part(view.name) + "#editor");
     }
     view.preview = preview_rules(desk, read, request.now_utc);

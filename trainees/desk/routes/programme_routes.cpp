@@ -55,11 +55,12 @@ Response programme(const Request& request, Desk& desk) {
 /// @throws InputError: as ProgrammeStore::save(); an exercise that there is not; somebody has saved another version
 /// since the form was made.
 Response save(Desk& desk, const Request& request, const ProgrammeView& view, const std::string& toml) {
-  if (view.seen != view.version)
-    throw InputError("programme \"" + view.name + "\": version " + std::to_string(view.version) +
-                     " was saved meanwhile; open it again, and repeat what you changed");
   require_known(read_programme(toml, view.name), view.name, known_levels(desk.database, desk.sources.exercises));
-  ProgrammeStore(desk.database).save(view.name, toml, author_of(request));
+  ProgrammeStore(desk.database).save(view.name, toml, author_of(request), [&](const std::optional<Curriculum>& last) {
+    if (last && last->version != view.seen)
+      throw InputError("programme \"" + view.name + "\": version " + std::to_string(last->version) +
+                       " was saved meanwhile; open it again, and repeat what you changed");
+  });
   return see("/programme?name=" + url_part(view.name) + "#steps");
 }
 

@@ -117,11 +117,24 @@ Response person(const Request& request, Desk& desk) {
   return roster_answer(person_page(person_view(desk, argument(request.query, "code")), frame_of(request, desk)));
 }
 
+/// What another desk has saved since the form was made is not lost; the same again is no loss.
+void refuse_unseen_person(const std::map<std::string, std::string>& form, const Trainee& now) {
+  const auto stands = [&](const char* name, const char* email) {
+    return argument(form, name) == now.name && argument(form, email) == now.email;
+  };
+  if (stands("seen_name", "seen_email") || stands("name", "email")) return;
+  throw InputError("trainee \"" + now.code + "\": was saved meanwhile with the name \"" +
+                   (now.name.empty() ? "-" : now.name) + "\" and the e-mail address \"" +
+                   (now.email.empty() ? "-" : now.email) + "\"; open the page again, and repeat what you changed");
+}
+
 Response change_person(const Request& request, Desk& desk) {
   const std::string code = argument(request.query, "code");
+  const auto& form = request.form;
   try {
     TraineeStore(desk.database)
-        .edit(code, argument(request.form, "name"), argument(request.form, "email"), author_of(request).account_uuid);
+        .edit(code, argument(form, "name"), argument(form, "email"), author_of(request).account_uuid,
+              [&](const Trainee& now) { refuse_unseen_person(form, now); });
   } catch (const InputError& error) {
     Frame frame = frame_of(request, desk);
     frame.refused = {"person", error.what(), request.form};

@@ -207,7 +207,12 @@ Answer DeskGate::page(RequestContext& context) {
     return refused(400, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");
   } catch (const DiskFull& error) {
     say(what + ": " + error.what());
-    return {.response = error_page(507, "", prose_of(context.request.form))};
+    if (!context.posts()) return refused(507);
+    const RequestHead& head = context.incoming.head;
+    std::map<std::string, std::string> form = context.request.form;
+    if (context.found.route->asks_password) form["password"];  // was taken out, and is asked for anew
+    return {.response =
+                disk_full_page(head.path + (head.query.empty() ? "" : "?" + head.query), context.request.token, form)};
   } catch (const EnvironmentError& error) {
     say(what + ": " + error.what());
     Answer out = refused(503, staff ? sentence(without_folders(error.what(), context.desk.database.file())) : "");

@@ -73,7 +73,9 @@ class DeskGate {
   Answer sign_in(RequestContext& context);
   Answer try_sign_in(RequestContext& context, const std::string& login, const std::string& next);
   struct Try;
-  Try try_password(RequestContext& context, const std::string& login, const std::string& password);
+  /// @param from what its wrong tries are counted by, besides the login: address or session.
+  Try try_password(RequestContext& context, const std::string& login, const std::string& password, SignInLimit& limit,
+                   const std::string& from);
   void confirm(RequestContext& context);
   void renew_session(RequestContext& context);
   bool recorded_late(RequestContext& context);
@@ -87,7 +89,9 @@ class DeskGate {
   GateOptions options_;
   RouteTable table_;
   DeskSessions sessions_;
-  SignInLimit limit_, pin_limit_;  ///< apart: whoever guesses at PINs keeps nobody with a password out
+  /// Apart: whoever guesses at PINs keeps nobody with a password out, and whoever guesses at either nobody who is
+  /// signed in from signing.
+  SignInLimit limit_, pin_limit_, signing_limit_;
   std::atomic<int> verifying_{0};
 };
 

@@ -94,12 +94,12 @@ struct DeskGate::Try {
   std::string why = {};                 ///< it was not looked at
 };
 
-DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string& login, const std::string& password) {
+DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string& login, const std::string& password,
+                                     SignInLimit& limit, const std::string& from) {
   const std::string who = printable(login) + " from " + context.incoming.address;
-  SignInLimit& limit = looks_like_pin(password) ? pin_limit_ : limit_;
   const Counted counted(verifying_);
   if (counted.before() >= kVerifyingAtOnce) return {.wait_s = 2, .why = "Many sign in at this moment. Try again."};
-  if (const int seconds = limit.begin(login, context.incoming.address, context.now); seconds > 0) {
+  if (const int seconds = limit.begin(login, from, context.now); seconds > 0) {
     say("sign-in held back: " + who);
     return {.wait_s = seconds, .why = waiting_words(seconds)};
   }
@@ -111,11 +111,11 @@ DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string&
   Try out{.account = accounts.verify(login, password)};
   if (out.account && known && out.account->uuid == known->uuid) out.stamp = stamp;
   if (!out.stamp.empty()) {
-    limit.was_right(login, context.incoming.address);
+    limit.was_right(login, from);
     return out;
   }
   say("sign-in refused: " + who);
-  if (limit.tell_held_back(login, context.incoming.address, context.now)) {
+  if (limit.tell_held_back(login, from, context.now)) {
     try {
       accounts.held_back(known ? known->uuid : "");
     } catch (const DiskFull& error) {
@@ -126,7 +126,9 @@ DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string&
 }
 
 Answer DeskGate::try_sign_in(RequestContext& context, const std::string& login, const std::string& next) {
-  const Try tried = try_password(context, login, context.request.form["password"]);
+  const std::string password = context.request.form["password"];
+  const Try tried =
+      try_password(context, login, password, looks_like_pin(password) ? pin_limit_ : limit_, context.incoming.address);
   if (tried.wait_s > 0) {
     Answer late = ask_to_sign_in(context, 429, tried.why, login, next);
     late.retry_after_s = tried.wait_s;
@@ -156,7 +158,10 @@ void DeskGate::confirm(RequestContext& context) {
     request.unconfirmed = "your password is missing: it is asked for again here";
     return;
   }
-  const Try tried = try_password(context, request.account->login, password);
+  // By session: others who get the login's password wrong do not stop who is signed in, and who guesses at a browser
+  // that was left open waits.
+  const Try tried =
+      try_password(context, request.account->login, password, signing_limit_, sessions_.token(context.number));
   if (tried.account) return;
   request.unconfirmed = tried.why.empty() ? "the password is wrong; nothing was written" : tried.why;
 }

@@ -15,18 +15,29 @@ std::string login_key(const std::string& login) {
 }
 
 std::string address_key(const std::string& address) { return "address " + address; }
+std::string pair_key(const std::string& login, const std::string& address) {
+  return "from " + address + " " + login_key(login);
+}
 
 }  // namespace
 
-int SignInLimit::wait(const std::string& key, std::chrono::seconds memory, DeskTime now) {
-  const auto at = wrong_.find(key);
+std::vector<SignInLimit::Counted> SignInLimit::counted(const std::string& login, const std::string& address) const {
+  std::vector<Counted> out{{pair_key(login, address), kOfLogin, kFree}, {address_key(address), kOfAddress, kFree}};
+  const auto own = own_.find(login_key(login));
+  if (own == own_.end() || std::find(own->second.begin(), own->second.end(), address) == own->second.end())
+    out.push_back({login_key(login), kOfLogin, kFreeOfLogin});
+  return out;
+}
+
+int SignInLimit::wait(const Counted& counted, DeskTime now) {
+  const auto at = wrong_.find(counted.key);
   if (at == wrong_.end()) return 0;
-  std::erase_if(at->second, [&](DeskTime t) { return now - t > memory; });
+  std::erase_if(at->second, [&](DeskTime t) { return now - t > counted.memory; });
   const int count = static_cast<int>(at->second.size());
-  if (count < kFree) return 0;
+  if (count < counted.free) return 0;
   constexpr int kMostDoublings = 5;
   const auto pause =
-      std::min<std::chrono::seconds>(kFirstWait * (1 << std::min(count - kFree, kMostDoublings)), kLongestWait);
+      std::min<std::chrono::seconds>(kFirstWait * (1 << std::min(count - counted.free, kMostDoublings)), kLongestWait);
   const auto left = std::chrono::ceil<std::chrono::seconds>(at->second.back() + pause - now);
   return static_cast<int>(std::max<std::chrono::seconds::rep>(left.count(), 0));
 }
@@ -43,34 +54,43 @@ void SignInLimit::make_room() {
 
 int SignInLimit::begin(const std::string& login, const std::string& address, DeskTime now) {
   const std::scoped_lock lock(mutex_);
-  const int seconds = std::max(wait(login_key(login), kOfLogin, now), wait(address_key(address), kOfAddress, now));
+  const std::vector<Counted> all = counted(login, address);
+  int seconds = 0;
+  for (const Counted& one : all) seconds = std::max(seconds, wait(one, now));
   if (seconds > 0) return seconds;
-  for (const std::string& key : {login_key(login), address_key(address)}) {
+  for (const Counted& one : all) {
     make_room();
-    wrong_[key].push_back(now);
+    wrong_[one.key].push_back(now);
   }
   return 0;
 }
 
 bool SignInLimit::tell_held_back(const std::string& login, const std::string& address, DeskTime now) {
   const std::scoped_lock lock(mutex_);
-  const auto full = [&](const std::string& key) {
-    const auto at = wrong_.find(key);
-    return at != wrong_.end() && at->second.size() == static_cast<std::size_t>(kFree);
+  const auto full = [&](const Counted& one) {
+    const auto at = wrong_.find(one.key);
+    return at != wrong_.end() && at->second.size() == static_cast<std::size_t>(one.free);
   };
   std::erase_if(told_, [&](DeskTime t) { return now - t > std::chrono::hours(1); });
-  if (told_.size() >= kMostTold || (!full(login_key(login)) && !full(address_key(address)))) return false;
+  const std::vector<Counted> all = counted(login, address);
+  if (told_.size() >= kMostTold || std::none_of(all.begin(), all.end(), full)) return false;
   told_.push_back(now);
   return true;
 }
 
 void SignInLimit::was_right(const std::string& login, const std::string& address) {
   const std::scoped_lock lock(mutex_);
-  wrong_.erase(login_key(login));
-  const auto at = wrong_.find(address_key(address));
-  if (at == wrong_.end()) return;
-  if (!at->second.empty()) at->second.pop_back();
-  if (at->second.empty()) wrong_.erase(at);
+  wrong_.erase(pair_key(login, address));
+  for (const Counted& one : counted(login, address)) {
+    const auto at = wrong_.find(one.key);
+    if (at == wrong_.end()) continue;
+    if (!at->second.empty()) at->second.pop_back();
+    if (at->second.empty()) wrong_.erase(at);
+  }
+  std::vector<std::string>& own = own_[login_key(login)];
+  std::erase(own, address);
+  own.push_back(address);
+  if (own.size() > kMostOwn) own.erase(own.begin());
 }
 
 }  // namespace trocar::review

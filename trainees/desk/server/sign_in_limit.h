@@ -1,9 +1,11 @@
 // How often somebody may try to sign in: five wrong ones, then a wait of 30 s that doubles with each further one, up to
 // 15 minutes.
 //
-// Counted are those of a login in a day (some 100 tries a day are left to who guesses a PIN), until the right one
-// comes; and those from an address in 15 minutes, which a whole class may share. A try counts as wrong from its
-// beginning until it is known to be right, so that many at once gain nothing. Thread: any.
+// Counted are those of a login from one address in a day, until the right one comes, so that whoever guesses elsewhere
+// keeps nobody out; those from an address in 15 minutes, which a whole class may share; and, for who guesses from many
+// addresses, those of a login in a day from wherever it never was right, of which a hundred are free. A try counts as
+// wrong from its beginning until it is known to be right, so that many at once gain nothing. Where somebody who is
+// signed in gives the password again, the session stands for the address. Thread: any.
 #pragma once
 
 #include <chrono>
@@ -19,9 +21,9 @@ namespace trocar::review {
 
 class SignInLimit {
  public:
-  static constexpr int kFree = 5;
+  static constexpr int kFree = 5, kFreeOfLogin = 100;
   static constexpr std::chrono::seconds kOfLogin{86400}, kOfAddress{900}, kFirstWait{30}, kLongestWait{900};
-  static constexpr std::size_t kMostKnown = 20000, kMostTold = 60;
+  static constexpr std::size_t kMostKnown = 20000, kMostTold = 60, kMostOwn = 16;
 
   /// Seconds to wait before a try is taken, 0: it is taken, and counts as wrong. A try that is not taken counts
   /// nothing.
@@ -29,16 +31,23 @@ class SignInLimit {
   /// The try that began was wrong, and from now on the login or the address has to wait: told once, and no more than
   /// kMostTold times an hour, for the audit trail keeps it for ever.
   bool tell_held_back(const std::string& login, const std::string& address, DeskTime now);
-  /// The try that began was right: it does not count, and the login's wrong ones before it are forgotten.
+  /// The try that began was right: it does not count, and the login's wrong ones from there are forgotten.
   void was_right(const std::string& login, const std::string& address);
 
  private:
   using Tries = std::vector<DeskTime>;  ///< newest last
-  int wait(const std::string& key, std::chrono::seconds memory, DeskTime now);
+  struct Counted {
+    std::string key;
+    std::chrono::seconds memory;
+    int free;
+  };
+  std::vector<Counted> counted(const std::string& login, const std::string& address) const;
+  int wait(const Counted& counted, DeskTime now);
   void make_room();
 
   std::mutex mutex_;
   std::map<std::string, Tries> wrong_;
+  std::map<std::string, std::vector<std::string>> own_;  ///< where a login was right, newest last
   Tries told_;
 };
 

@@ -32,9 +32,10 @@ struct Guest {
   std::string bytes = {};    ///< read so far, or to be sent
   RequestHead head = {};
   std::size_t done = 0;  ///< of the bytes to be sent; of what was taken while leaving
+  /// It came, or took something of its answer: what of a request dribbles in is no progress.
+  Deadline stands_since = Clock::now();
 
   bool waits() const { return state != State::kServed; }
-  bool is_slow() const { return state == State::kGreeting || state == State::kHead || state == State::kBody; }
 };
 
 }  // namespace
@@ -106,23 +107,27 @@ struct WaitingRoom::Room {
     guests.remove_if([](const Guest& guest) { return !guest.connection; });
   }
 
-  /// The longest waiting one yields; who is served or gets an answer does not. @returns false: all are.
+  /// Who has stood still longest yields, of the addresses that hold most places; who is served does not.
+  /// @returns false: all are.
   bool make_place(const std::string& address) {
-    const auto yields = [&](bool of_address) {
-      for (Guest& guest : guests) {
-        if (!guest.connection || !guest.is_slow() || (of_address && guest.address != address)) continue;
-        guest.connection.reset();
-        return true;
-      }
-      return false;
-    };
-    const auto taken = [&](bool of_address) {
-      return static_cast<std::size_t>(std::count_if(guests.begin(), guests.end(), [&](const Guest& guest) {
-        return guest.connection && (!of_address || guest.address == address);
-      }));
-    };
-    if (taken(true) >= limits.of_one_address) return yields(true);
-    return taken(false) < limits.places || yields(false);
+    std::map<std::string, std::size_t> taken;
+    std::size_t all = 0;
+    for (const Guest& guest : guests) {
+      if (!guest.connection) continue;
+      ++taken[guest.address];
+      ++all;
+    }
+    const bool own = taken[address] >= limits.of_one_address;
+    if (!own && all < limits.places) return true;
+    Guest* yields = nullptr;
+    for (Guest& guest : guests) {
+      if (!guest.connection || !guest.waits() || (own && guest.address != address)) continue;
+      const std::size_t held = taken[guest.address], most = yields ? taken[yields->address] : 0;
+      if (held > most || (held == most && guest.stands_since < yields->stands_since)) yields = &guest;
+    }
+    if (!yields) return false;
+    yields->connection.reset();
+    return true;
   }
 
   void go_on(Guest& guest) {
@@ -207,6 +212,7 @@ struct WaitingRoom::Room {
     guest.bytes = std::move(bytes);
     guest.done = 0;
     guest.state = State::kSending;
+    guest.stands_since = Clock::now();
     guest.until = Clock::now() + milliseconds(limits.request.write_ms);
     send_more(guest);
   }
@@ -217,6 +223,7 @@ struct WaitingRoom::Room {
       if (again(guest, count)) return;
       if (count <= 0) return guest.connection.reset();
       guest.done += static_cast<std::size_t>(count);
+      guest.stands_since = Clock::now();
     }
     guest.connection->end();
     guest.bytes.clear();

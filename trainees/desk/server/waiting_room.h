@@ -2,9 +2,10 @@
 // ended. One thread watches all of them, so that whoever is slow costs a place and no thread; only whole requests go to
 // those who serve.
 //
-// An address has so many places; when they are taken, the one that has waited longest yields to a new one, so that slow
-// visitors never keep out others, not even from their own address. The same holds for all places together. Thread:
-// enter() and send() may come from any.
+// An address has so many places; when they are taken, the one that has stood still longest yields to a new one, whether
+// it asks or takes its answer, so that slow visitors never keep out others, not even from their own address. The same
+// holds for all places together, where one of an address that holds most of them yields. Thread: enter() and send() may
+// come from any.
 #pragma once
 
 #include <functional>

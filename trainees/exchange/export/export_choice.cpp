@@ -27,7 +27,8 @@ ExportChoice choose_attempts(Database& database, const ExportFilter& filter) {
                       "SELECT a.id, a.trainee_id FROM attempt a JOIN known_trainee t ON t.id = a.trainee_id"
                       " WHERE a.status <> 'running' AND (?1 = '' OR t.code = ?1 COLLATE NOCASE) AND (?2 = '' OR EXISTS"
                       " (SELECT 1 FROM membership m WHERE m.trainee_id = a.trainee_id AND m.group_name = ?2))"
-                      " AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training')"
+                      " AND a.trainee_id NOT IN (SELECT trainee_id FROM erasure WHERE kind = 'training' AND"
+                      " row_holds('erasure', id))"
                       " AND (?3 = '' OR a.exercise_id = ?3) AND (?4 = 0 OR a.id = ?4) ORDER BY a.id");
   rows.bind(filter.trainee).bind(filter.group).bind(filter.exercise).bind(only);
   ExportChoice choice;

@@ -51,8 +51,9 @@ bool has_place(sqlite3* connection, const CarriedTable& table, const Values& row
   for (const auto& [of, ended] : {std::pair{"certificate", "revocation"}, std::pair{"assignment", "withdrawal"}}) {
     const auto what = value_at(table, row, std::string(of) + "_uuid");
     if (!what) continue;
-    sql::Statement once(connection, std::string("SELECT EXISTS (SELECT 1 FROM ") + ended + " WHERE " + of +
-                                        "_id = w.id) FROM " + of + " w WHERE uuid = ?");
+    sql::Statement once(connection, std::string("SELECT EXISTS (SELECT 1 FROM ") + ended + " e WHERE " + of +
+                                        "_id = w.id AND row_holds('" + ended + "', e.id)) FROM " + of +
+                                        " w WHERE uuid = ?");
     return once.bind(*what).step() && once.integer(0) == 0;
   }
   return true;
@@ -90,7 +91,8 @@ struct KnownPerson {
 
 std::optional<KnownPerson> person_here(sqlite3* connection, const std::string& trainee, const std::string& kind) {
   sql::Statement row(connection,
-                     "SELECT code, EXISTS (SELECT 1 FROM erasure WHERE trainee_id = k.id AND kind IN (?2, 'training'))"
+                     "SELECT code, EXISTS (SELECT 1 FROM erasure e WHERE trainee_id = k.id AND kind IN (?2, 'training')"
+                     " AND row_holds('erasure', e.id))"
                      " FROM known_trainee k WHERE uuid = ?1");
   if (!row.bind(trainee).bind(kind).step()) return std::nullopt;
   return KnownPerson{row.text(0), row.integer(1) != 0};

@@ -169,7 +169,7 @@ TEST_F(StoreCommands, ReadingCommandsDoNotMakeADatabase) {
 TEST_F(StoreCommands, DbCheckIsZeroWhenSoundAndTwoWhenNot) {
   fill();
   EXPECT_EQ(db_check({file_, ""}, out_, err_), 0);
-  EXPECT_NE(out_.str().find("sound (schema 4, 3 attempts, head 12:"), std::string::npos) << out_.str();
+  EXPECT_NE(out_.str().find("sound (schema 5, 3 attempts, head 12:"), std::string::npos) << out_.str();
   ASSERT_EQ(run_outside(file_, "DROP TRIGGER score_no_update; UPDATE score SET value = 100 WHERE attempt_id = 1"), "");
   out_.str("");
   EXPECT_EQ(db_check({file_, "", true}, out_, err_), 2);
@@ -204,7 +204,7 @@ TEST_F(StoreCommands, DbBackupNamesItsCopyAndMigrateSaysWhereItStands) {
   EXPECT_THROW(db_backup({file_, folder_ / "named"}, out_, err_), InputError);
   out_.str("");
   EXPECT_EQ(db_migrate({file_, ""}, out_, err_), 0);
-  EXPECT_EQ(out_.str(), "schema 4, up to date\n");
+  EXPECT_EQ(out_.str(), "schema 5, up to date\n");
 }
 
 TEST_F(StoreCommands, OpeningReportsAttemptsThatWereCutOff) {

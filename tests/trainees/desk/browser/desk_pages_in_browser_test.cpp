@@ -8,6 +8,7 @@
 #include "tests/trainees/desk/browser/page_faults.h"
 #include "tests/trainees/desk/server/tls_sample.h"
 #include "trainees/records/accounts.h"
+#include "trainees/records/assessments.h"
 #include "trainees/records/attempt_store.h"
 
 namespace trocar::test::desk_pages_in_browser_test {
@@ -60,6 +61,30 @@ TEST_F(DeskPages, AreSoundOnAPhone) {
   sign_in("adam");
   expect_all_sound();
   expect_quiet({"401 (Unauthorized)", "404 (Not Found)"});
+}
+
+TEST_F(DeskPages, OnAPhoneResultsAndVerdictAreSeenWithoutScrolling) {
+  {
+    Database database(file_);
+    AssessmentStore(database).override_verdict(attempt_, true, "The stand slipped during it.", {"", "Dr Brandt"});
+  }
+  serve(options());
+  look({.width = 390, .height = 844, .phone = true});
+  browser_->open(at(std::string("/trainee/") + kRisky));
+  EXPECT_GT(browser_->run("return document.querySelectorAll('.tries td').length").get<int>(), 6);
+  EXPECT_EQ(browser_
+                ->run("return [...document.querySelectorAll('.tries td')].filter("
+                      "e => e.getBoundingClientRect().right > innerWidth).length")
+                .get<int>(),
+            0);
+  browser_->open(at("/attempt/" + attempt_));
+  EXPECT_TRUE(browser_
+                  ->run("const words = document.createRange(); "
+                        "words.selectNodeContents(document.querySelector('.verdict .word')); "
+                        "return words.getBoundingClientRect().right <= "
+                        "document.querySelector('.verdict .score').getBoundingClientRect().left")
+                  .get<bool>())
+      << "the verdict does not run into the score";
 }
 
 TEST_F(DeskPages, PrintOnA4) {

@@ -118,6 +118,12 @@ class ProgrammeStory : public BrowsedDesk {
     picture("grid");
     browser_->open(at("/reminders"));
     EXPECT_NE(browser_->text("#reminders").find("days late"), std::string::npos);
+    EXPECT_EQ(browser_
+                  ->run("return [...document.querySelectorAll('.reminders tbody td')].filter("
+                        "e => e.getBoundingClientRect().right > innerWidth).length")
+                  .get<int>(),
+              0)
+        << "day and what is missing";
     expect_sound("reminders");
     picture("reminders");
     browser_->open(at("/roster/person?code=N-1"));

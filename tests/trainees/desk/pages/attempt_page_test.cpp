@@ -180,6 +180,19 @@ TEST(AttemptPage, CertificateOnlyWithItsEvidence) {
       std::string::npos);
 }
 
+TEST(AttemptPage, ACertificateIsCalledByItsExerciseAndTheTitleCanBeTranslated) {
+  AttemptView view = sample_attempt(90, 0.7);
+  view.certificates = {
+      {{"c1", "dubois", "surface-touch", "L2", "1", "{}", "ines", "Dr Ines Okafor", "2026-03-01T10:00:00Z", "", ""},
+       false,
+       "decided not passed by Dr Brandt on 2026-03-20: no"}};
+  const std::string html = attempt_page(view, sample_frame());
+  const std::string said = check_page(html).by_id("sign")->text;
+  EXPECT_NE(said.find("Certificate for Surface touch L2, 1 Mar 2026"), std::string::npos) << said;
+  EXPECT_NE(said.find("on 20 Mar 2026: no. Look"), std::string::npos) << said;
+  EXPECT_NE(html.find("<title>Surface touch L2, dubois - Trocar desk"), std::string::npos);
+}
+
 TEST(AttemptPage, ASignatureOfOtherBytesShows) {
   AttemptView view = sample_attempt();
   EXPECT_EQ(sign_off_section(view, sample_frame()).find("other bytes"), std::string::npos);

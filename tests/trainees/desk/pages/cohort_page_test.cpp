@@ -99,6 +99,7 @@ TEST(CohortPage, WhoHasNotStartedIsCountedAndListedAndTheHeadlineFollowsTheFilte
   const CheckedPage page = check_page(cohort_page(view, sample_frame()));
   EXPECT_EQ(page.problems, std::vector<std::string>{});
   EXPECT_EQ(count_of(page, "not-started"), "1");
+  EXPECT_NE(page.all("section", "state not-started")[0]->text.find("registered 1 Mar 2026"), std::string::npos);
   EXPECT_EQ(codes(selected_lines(view)).back(), "ivo");
   EXPECT_NE(title().find("9 trainees, 71 tries"), std::string::npos) << title();
   view.asked.state = "not-started";

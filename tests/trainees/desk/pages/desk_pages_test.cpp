@@ -89,8 +89,12 @@ TEST(Frame, WordsForDatesTimesNumbers) {
   EXPECT_EQ(score_text({}), "\xE2\x80\x93");
   EXPECT_EQ(url_part("a/b?c=d&\"\xC3\xA9"), "a%2Fb%3Fc%3Dd%26%22%C3%A9");
   EXPECT_EQ(query_html({{"a", "1"}, {"b", ""}, {"c", "2 3"}}), "?a=1&amp;c=2%203");
-  EXPECT_EQ(evidence_text("14 passes"), "14 passes");
-  EXPECT_EQ(evidence_text("[1]"), "[1]");
+  const AttemptNames nobody = [](const std::string&) { return std::string(); };
+  EXPECT_EQ(evidence_html("14 passes", nobody), "<p><small>14 passes</small></p>");
+  EXPECT_EQ(evidence_html("[1]", nobody), "<p><small>[1]</small></p>");
+  EXPECT_EQ(dated("of 2026-11-30: 1 of 16, 2026-01-02"), "of 30 Nov 2026: 1 of 16, 2 Jan 2026");
+  for (const char* kept : {"", "2026-13-01", "12026-11-30", "2026-11-300", "A-2026-11-30", "2026-11-30-b", "2026-11"})
+    EXPECT_EQ(dated(kept), kept);
 }
 
 TEST(Frame, EveryStateHasItsOwnShapeWordAndStyle) {

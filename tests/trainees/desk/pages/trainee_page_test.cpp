@@ -99,6 +99,27 @@ TEST(TraineePage, CertificatesShowEvidenceAndWithdrawal) {
   EXPECT_EQ(forms, 1U);
 }
 
+TEST(TraineePage, ACertificateIsCalledByItsExerciseAndNamesAttemptsByNumber) {
+  TraineeView view = sample_trainee();
+  for (CurvePoint& point : view.curves[0].points) point.number = 100 + std::stoi(point.uuid.substr(5));
+  view.certificates[0].evidence =
+      R"({"attempt":"uuid-16","row_hash":")" + std::string(64, 'e') +
+      R"(","words":"14 passes in a row","n":16,"attempts":["uuid-3","uuid-16"],"overrides":[{"attempt":"uuid-3",)"
+      R"("decision":"d1","passed":true,"by":"Dr Brandt","utc":"2026-03-14T10:00:00Z","reason":"stand slipped"}]})";
+  view.shaken["c1"] = "decided not passed by Dr Brandt on 2026-03-20: no";
+  const std::string html = trainee_page(view, sample_frame());
+  const CheckedPage page = check_page(html);
+  EXPECT_EQ(page.problems, std::vector<std::string>{});
+  const std::string said = page.all("article", "certificate")[0]->text;
+  for (const char* words :
+       {"Surface touch L1", "Cites attempt no. 116, 25 Mar 2026", "on 20 Mar 2026: no. Look",
+        "passed by decision of Dr Brandt, 14 Mar 2026, attempt no. 103, 12 Mar 2026: stand slipped"})
+    EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
+  EXPECT_EQ(said.find("uuid-"), std::string::npos) << said;
+  EXPECT_NE(html.find("<summary>Row hash</summary><p class=\"mono\">eeee"), std::string::npos);
+  EXPECT_EQ(count(said, "eeee"), 16U) << "once, folded away";
+}
+
 TEST(TraineePage, DueDatesThatAreOverCarryABadge) {
   const CheckedPage page = check_page(trainee_page(sample_trainee(), sample_frame()));
   const std::string due = page.by_id("due")->text;
@@ -134,7 +155,7 @@ TEST(Curve, PointsAreLinksAndTellPassedFromNot) {
   EXPECT_EQ(count(svg, "<a href=\"/attempt/uuid-"), 16U);
   EXPECT_EQ(count(svg, "fill=\"#fff\""), 11U);      // hollow: 15 graded, 4 of them passed
   EXPECT_EQ(count(svg, "stroke=\"#5b6570\""), 1U);  // the aborted one
-  EXPECT_NE(svg.find("attempt 16, 2026-03-25: 81.0, passed"), std::string::npos);
+  EXPECT_NE(svg.find("attempt 16, 25 Mar 2026: 81.0, passed"), std::string::npos);
   // 75 of 100 between 252 (0) and 14 (100).
   EXPECT_NE(svg.find("y1=\"73.5\""), std::string::npos);
 }
@@ -167,7 +188,7 @@ TEST(Weeks, BarsStandForMinutes) {
   // Bottom 168, top 14: 30 min are the whole height, 15 half of it.
   EXPECT_NE(svg.find("height=\"154.0\""), std::string::npos) << svg;
   EXPECT_NE(svg.find("height=\"77.0\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("week of 2026-03-09: 15 min"), std::string::npos);
+  EXPECT_NE(svg.find("week of 9 Mar 2026: 15 min"), std::string::npos);
   std::vector<std::pair<std::string, double>> many(100, {"2026-01-05", 1});
   EXPECT_EQ(count(weeks_svg(many), "<rect"), 26U);
   EXPECT_EQ(count(weeks_svg({}), "<rect"), 0U);

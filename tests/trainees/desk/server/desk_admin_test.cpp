@@ -3,13 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/server/url_text.h"
 #include "trainees/integrity/station_key.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/assessments.h"
+#include "trainees/records/curricula.h"
 #include "trainees/records/trainee_store.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::desk_admin_test {
 namespace {
@@ -115,6 +120,22 @@ TEST_F(DeskAdmin, ARefusedAccountComesBackWithItsFieldsButNoPassword) {
   EXPECT_TRUE(AccountStore(database_).verify("adam", kPassword));
 }
 
+TEST_F(DeskAdmin, ABackupThatTheDiskHasNoRoomForIsRefusedOnTheRecordsPage) {
+  const fs::path recording = folder_ / "desk.recordings" / (annas_ + ".trec");
+  fs::create_directories(recording.parent_path());
+  std::ofstream(recording) << "motion";
+  fs::resize_file(recording, fs::space(folder_).available + (1U << 30U));  // takes no room itself
+  const Answer full = ask("POST", "/record/backup", local());
+  EXPECT_EQ(full.response.status, 507);
+  const std::size_t why = full.response.body.find("id=\"why-backup\"");
+  ASSERT_NE(why, std::string::npos) << full.response.body;
+  EXPECT_NE(full.response.body.find("Not done. desk.db.", why), std::string::npos) << "a file keeps its name";
+  EXPECT_NE(full.response.body.find("give a place on a larger disk, or leave the recordings out.", why),
+            std::string::npos);
+  EXPECT_EQ(full.response.body.find(folder_.string()), std::string::npos);
+  EXPECT_EQ(ask("POST", "/record/backup", local(), "leave=recordings").response.status, 303);
+}
+
 TEST_F(DeskAdmin, TheRecordIsCountedCheckedAndCopied) {
   desk_.sources.program = "9.8.7";
   const Visitor here = local();
@@ -196,6 +217,37 @@ TEST_F(DeskAdmin, TheAuditTrailSaysWhatItIsAboutInWords) {
   EXPECT_NE(body.find("title=\"" + attempt.uuid), std::string::npos) << "yet it can be had";
 }
 
+TEST_F(DeskAdmin, TheAuditTrailTellsAProgrammeFromRulesAndTheProgramFromPeople) {
+  add_accounts();
+  CurriculumStore curricula(database_);
+  const std::string rules = curricula.add(kRulesName, "version = \"7\"\n", {"", "Ines"}).uuid;
+  const std::string steps =
+      curricula.add("Basics & more", "[[step]]\nexercise = \"pegs\"\nlevel = \"L1\"\npasses = 1\n", {"", "Ines"}).uuid;
+  bool named = false, program = false;
+  for (const AuditEntry& entry : audit_view(database_, {}).entries) {
+    if (entry.subject == rules) {
+      EXPECT_EQ(entry.words + " " + entry.page, "standard, version 1 /curriculum");
+    }
+    if (entry.subject == steps) {
+      EXPECT_EQ(entry.words + " " + entry.page,
+                "programme Basics & more, version 1 /programme?name=Basics%20%26%20more");
+    }
+    named = named || entry.named;
+    program = program || !entry.named;
+  }
+  EXPECT_TRUE(program && !named) << "nobody with an account did anything yet";
+  EXPECT_NE(page("/audit", signed_in("adam")).find("<td>the program</td>"), std::string::npos);
+}
+
+TEST_F(DeskAdmin, TheRecordsPageTellsAClockThatWentBackBeforeAnybodyChecks) {
+  const auto said = [this] { return record_page(record_view(database_, "0.1.0"), {}); };
+  EXPECT_EQ(said().find("was set back"), std::string::npos);
+  sql::execute(database_.connection(), "DROP TRIGGER audit_no_update");
+  sql::execute(database_.connection(),
+               "UPDATE audit SET utc = '2020-01-01T00:00:00.000Z' WHERE position = (SELECT max(position) FROM audit)");
+  EXPECT_NE(said().find("The clock of this machine was set back 1 time."), std::string::npos);
+}
+
 TEST_F(DeskAdmin, RetentionIsLookedAtAndErasesNobody) {
   const Visitor here = local();
   EXPECT_NE(page("/retention", here).find("Nobody: every trainee was here within 730 days"), std::string::npos);
@@ -226,7 +278,7 @@ TEST_F(DeskAdmin, TheDemoGoesAfterAQuestionAndByAdministratorsAlone) {
   EXPECT_EQ(gone.response.body.find("<nav"), std::string::npos) << "there is nowhere left to go";
   EXPECT_EQ(removed, 1);
   desk_.sources.remove_demo = []() -> std::string { throw InputError("/home/x/demo.db: holds no demo cohort"); };
-  EXPECT_NE(ask("POST", "/demo/remove", local()).response.body.find("Demo.db: holds no demo cohort."),
+  EXPECT_NE(ask("POST", "/demo/remove", local()).response.body.find("demo.db: holds no demo cohort."),
             std::string::npos);
   add_accounts();
   EXPECT_EQ(page("/", signed_in("ines")).find("/demo/remove"), std::string::npos);

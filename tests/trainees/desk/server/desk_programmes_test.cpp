@@ -1,9 +1,14 @@
 // Programmes through the gate: made in a form, assigned, the grid, who is late, files.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <barrier>
+#include <thread>
+
 #include "tests/trainees/desk/pages/page_checker.h"
 #include "tests/trainees/desk/server/desk_samples.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/programmes.h"
 #include "trainees/records/standings.h"
 
@@ -92,6 +97,109 @@ TEST_F(DeskProgrammes, WhatSomebodySavedMeanwhileIsNotOverwritten) {
   EXPECT_TRUE(has(late, "name=\"version\" value=\"1\"")) << "saying it twice does not help";
   EXPECT_EQ(ProgrammeStore(database_).list().at(0).text.version, 2);
   EXPECT_EQ(post("/programme", "name=Basics&version=1&do=text&toml=x").response.status, 400);
+}
+
+TEST_F(DeskProgrammes, WhatIsAssignedHasItsDayAndNamesInWords) {
+  save_basics();
+  EXPECT_EQ(post("/programmes/assign", "programme=Basics&group=2026+A&due=2026-06-30").response.status, 303);
+  const std::string programmes = page("/programmes");
+  EXPECT_TRUE(has(programmes, ">Due</th>") && !has(programmes, ">By</th>")) << "the day, not who";
+  EXPECT_TRUE(has(programmes,
+                  "<span class=\"unseen\"> <span translate=\"no\">Basics</span> from <span "
+                  "translate=\"no\">2026 A</span></span>"));
+  const std::string due = check_page(page("/trainee/T-anna"), ines_.token).by_id("due")->text;
+  EXPECT_TRUE(has(due, "Rings <on> pegs")) << due << ": nobody has tried it yet";
+}
+
+TEST_F(DeskProgrammes, RulesThatSomebodySavedMeanwhileAreNotOverwritten) {
+  const auto rules = [](const std::string& version, const std::string& more = "") {
+    return "&do=save&name=standard&toml=" + percent_encoded("version = \"" + version + "\"\n" + more);
+  };
+  const std::string opened = page("/curriculum"), seen = "seen_name=standard&seen=" + field_of(opened, "seen");
+  EXPECT_EQ(field_of(opened, "seen_name"), "standard");
+  EXPECT_EQ(post("/curriculum", seen + rules("otto-1")).response.status, 303);
+  EXPECT_EQ(post("/curriculum", seen + rules("otto-1")).response.status, 303) << "the same text is no loss";
+  const std::string late = sound("late", post("/curriculum", seen + rules("ines-1")), 400);
+  EXPECT_TRUE(has(late, "no. 1 is kept here, and your text was not made from it") && has(late, "ines-1")) << late;
+  EXPECT_EQ(field_of(late, "seen"), "") << "saying it twice does not help";
+  EXPECT_EQ(CurriculumStore(database_).newest("standard")->version, 1);
+  const std::string again = field_of(page("/curriculum"), "seen");
+  EXPECT_EQ(again, CurriculumStore(database_).newest("standard")->uuid);
+  EXPECT_EQ(post("/curriculum", "seen_name=other&seen=" + again + rules("ines-1")).response.status, 400);
+  EXPECT_EQ(post("/curriculum", "seen_name=standard&seen=" + again + rules("ines-1")).response.status, 303);
+  EXPECT_EQ(problems_of(database_), "");
+}
+
+/// Both have looked before either writes.
+TEST_F(DeskProgrammes, OfTwoDesksThatSaveAtOnceOneSaves) {
+  constexpr int kRounds = 12;
+  const std::vector<Route> routes = desk_routes();
+  std::atomic<int> rules = 0, programmes = 0;
+  std::barrier together(2);
+  const auto save = [&](const std::string& who) {
+    Database database(file_);
+    Desk desk{database, desk_.sources};
+    Request request;
+    request.account = Account{"", who, who, Role::kInstructor};
+    request.now_utc = "2026-07-01T12:00:00Z";
+    const auto saved = [&](const std::string& path, const std::map<std::string, std::string>& form) {
+      request.form = form;
+      together.arrive_and_wait();
+      for (const Route& route : routes)
+        if (route.method == "POST" && route.path == path) return route.answer(request, desk).status == 303;
+      return false;
+    };
+    for (int round = 0; round < kRounds; ++round) {
+      const std::string number = std::to_string(round), own = "# of " + who + "\n";
+      rules += saved("/curriculum",
+                     {{"do", "save"}, {"name", who + number}, {"toml", own + "version = \"r" + number + "\"\n"}});
+      programmes += saved("/programme", {{"do", "text"},
+                                         {"name", "Both"},
+                                         {"version", number},
+                                         {"toml", own + "[[step]]\nexercise = \"pegs\"\nlevel = \"L1\"\npasses = " +
+                                                      std::to_string(round + 1) + "\n"}});
+    }
+  };
+  std::thread other(save, "otto");
+  save("ines");
+  other.join();
+  EXPECT_EQ(rules, kRounds) << "one version of rules is one text";
+  EXPECT_EQ(programmes, kRounds);
+  EXPECT_EQ(ProgrammeStore(database_).list().size(), 1U);
+}
+
+/// What would count nowhere is not taken, and every page says why once.
+TEST_F(DeskProgrammes, WithoutTheStationsKeyNothingIsAssignedOrWithdrawn) {
+  save_basics();
+  EXPECT_EQ(post("/programmes/assign", "programme=Basics&group=2026+A").response.status, 303);
+  const std::string held = ProgrammeStore(database_).assignments().at(0).uuid,
+                    lost = "desk.db.key is missing: what is written now is not signed";
+  const std::filesystem::path key = key_path(file_), away = folder_ / "away";
+  const Visitor anna = signed_in("anna");
+  std::filesystem::rename(key, away);
+  for (const auto& [path, form] :
+       {std::pair<std::string, std::string>{"/programmes/assign", "programme=Basics&trainee=T-otto"},
+        {"/programmes/withdraw", "assignment=" + held},
+        {"/roster/selected", "p%3AT-anna=yes&do=deactivate"},
+        {"/roster/add", "code=N-1"}}) {
+    const std::string refused = sound(path, post(path, form), 400);
+    EXPECT_TRUE(has(refused, "Nothing was written, for what is not signed counts nowhere")) << path;
+  }
+  for (const std::string path : {"/", "/roster", "/programmes", "/curriculum", "/trainee/T-anna"}) {
+    const std::string shown = page(path);
+    const std::size_t at = shown.find("This record takes no decisions now: its key " + lost);
+    ASSERT_NE(at, std::string::npos) << path;
+    EXPECT_EQ(shown.find(lost, at + lost.size() + 50), std::string::npos) << path << " says it once";
+  }
+  const std::string attempt = page("/attempt/" + annas_);
+  EXPECT_TRUE(has(attempt, "You cannot sign, decide or certify: the station's key is missing."));
+  EXPECT_EQ(attempt.find(lost), attempt.rfind(lost));
+  EXPECT_FALSE(has(ask("GET", "/trainee/T-anna", anna).response.body, lost)) << "nothing a trainee can mend";
+  std::filesystem::rename(away, key);
+  EXPECT_FALSE(has(page("/programmes"), lost));
+  EXPECT_EQ(post("/programmes/withdraw", "assignment=" + held).response.status, 303);
+  EXPECT_TRUE(StandingStore(database_).of("T-anna").active);
+  EXPECT_EQ(problems_of(database_), "");
 }
 
 TEST_F(DeskProgrammes, TheTextIsTheSameProgramme) {

@@ -99,6 +99,10 @@ TEST_F(DeskRefusal, WhatWasWrittenIsGivenBackWhenTheFormIsTooOldOrTheSignInHasEn
   EXPECT_EQ(old.response.status, 403);
   EXPECT_NE(old.response.body.find("my long &lt;note&gt;"), std::string::npos);
   EXPECT_EQ(old.response.body.find("secret word"), std::string::npos);
+  const Answer person = ask("POST", "/roster/add", {ines_.cookie, "x"}, "code=T-77&name=Ann+Lee&email=a%40b.example");
+  EXPECT_EQ(person.response.status, 403);
+  EXPECT_NE(person.response.body.find("code: T-77\nemail: a@b.example\nname: Ann Lee"), std::string::npos);
+  EXPECT_EQ(person.response.body.find("Send again"), std::string::npos) << "who sent it is not known";
   now_ += std::chrono::hours(1);
   const Answer ended = ask("POST", "/attempt/" + annas_ + "/note", ines_, form);
   EXPECT_EQ(ended.response.status, 401);
@@ -122,7 +126,8 @@ TEST_F(DeskRefusal, WhatIsMissingIsSaidInASentenceWithoutFolders) {
 
 TEST(Sentence, LeavesOutFoldersOnly) {
   EXPECT_EQ(sentence("/home/x y/trocar.db: disk full"), "X y/trocar.db: disk full.");
-  EXPECT_EQ(sentence("/var/lib/trocar.db: disk full"), "Trocar.db: disk full.");
+  EXPECT_EQ(sentence("/var/lib/trocar.db: disk full"), "trocar.db: disk full.") << "a file keeps its name";
+  EXPECT_EQ(sentence("role: trainee. Or not"), "Role: trainee. Or not.");
   EXPECT_EQ(sentence("cannot be read: \"/a/b/c.trec\""), "Cannot be read: \"c.trec\".");
   EXPECT_EQ(sentence("1/2 of a / b, see http://x/y"), "1/2 of a / b, see http://x/y.");
   EXPECT_EQ(sentence("/one"), "/one.");

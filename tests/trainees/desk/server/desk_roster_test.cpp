@@ -56,13 +56,33 @@ TEST_F(DeskRoster, APersonIsAddedRenamedAndNotTwice) {
   EXPECT_TRUE(has(again, "is there already") && has(again, "value=\"Kim\"")) << again;
   EXPECT_EQ(post("/roster/add", "code=a+b").response.status, 400);
   page("/roster/person?code=K-7", ines_);
-  EXPECT_EQ(post("/roster/person?code=K-7", "name=Li+Na&email=li%40example.org").response.status, 303);
+  const std::string seen = "seen_name=%E6%9D%8E+%22Li%22&seen_email=&";
+  EXPECT_EQ(post("/roster/person?code=K-7", seen + "name=Li+Na&email=li%40example.org").response.status, 303);
   EXPECT_EQ(TraineeStore(database_).find("K-7")->email, "li@example.org");
   EXPECT_TRUE(
       has(sound("edit", post("/roster/person?code=K-7", "name=Li&email=none"), ines_, 400), "name@example.org"));
   EXPECT_EQ(post("/roster/person?code=nobody", "name=Li&email=").response.status, 400);
   EXPECT_EQ(ask("GET", "/roster/person?code=nobody", ines_).response.status, 404);
   EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskRoster, WhatSomebodySavedOfAPersonMeanwhileIsNotOverwritten) {
+  const std::string path = "/roster/person?code=T-otto", opened = page(path, ines_);
+  EXPECT_EQ(field_of(opened, "seen_name") + field_of(opened, "seen_email"), "");
+  const std::string first = "seen_name=&seen_email=&name=Otto&email=otto%40example.org";
+  EXPECT_EQ(post(path, first).response.status, 303);
+  EXPECT_EQ(post(path, first).response.status, 303) << "the same again is no loss";
+  const std::string late = sound("late", post(path, "seen_name=&seen_email=&name=Otto+Ohm&email="), ines_, 400);
+  EXPECT_TRUE(
+      has(late, "was saved meanwhile with the name &quot;Otto&quot; and the e-mail address &quot;otto@example.org"))
+      << late;
+  EXPECT_TRUE(has(late, "value=\"Otto Ohm\"")) << "what was typed stays";
+  EXPECT_EQ(field_of(late, "seen_email"), "") << "saying it twice does not help";
+  EXPECT_EQ(TraineeStore(database_).find("T-otto")->email, "otto@example.org");
+  const std::string again = page(path, ines_);
+  EXPECT_EQ(field_of(again, "seen_name") + field_of(again, "seen_email"), "Ottootto@example.org");
+  EXPECT_EQ(post(path, "seen_name=Otto&seen_email=otto%40example.org&name=Otto&email=").response.status, 303);
+  EXPECT_EQ(TraineeStore(database_).find("T-otto")->email, "");
 }
 
 TEST_F(DeskRoster, AListIsLookedAtBeforeItIsTaken) {
@@ -73,6 +93,8 @@ TEST_F(DeskRoster, AListIsLookedAtBeforeItIsTaken) {
   const std::string form = "csv=" + percent_encoded(csv) + "&group=2026+B&do=";
   const std::string seen = sound("look", post("/roster/import", form + "look"), ines_);
   EXPECT_TRUE(has(seen, "30 added, 1 there already, joining the group, 1 refused")) << seen;
+  EXPECT_TRUE(has(seen, "refused<br/><small>")) << "the reason stands where it is seen";
+  EXPECT_TRUE(has(seen, "<td class=\"long\" translate=\"no\">")) << "a long address breaks";
   EXPECT_TRUE(has(seen, "Nothing is written yet") && has(seen, "Add 30 people, 1 into their group"));
   EXPECT_EQ(TraineeStore(database_).list().size(), 2U);
   const std::string done = sound("take", post("/roster/import", form + "take"), ines_);

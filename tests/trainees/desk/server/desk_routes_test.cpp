@@ -375,7 +375,14 @@ TEST_F(DeskRoutes, RulesThatCannotBeReadLeaveThoseBeforeThemInForce) {
         << path;
   }
   const std::string mended = "version = \"10\"\n";
-  EXPECT_EQ(ask("POST", "/curriculum", {{"do", "save"}, {"name", kRulesName}, {"toml", mended}}).status, 303);
+  EXPECT_EQ(ask("POST", "/curriculum",
+                {{"do", "save"},
+                 {"name", kRulesName},
+                 {"toml", mended},
+                 {"seen_name", kRulesName},
+                 {"seen", store.newest(kRulesName)->uuid}})
+                .status,
+            303);
   EXPECT_EQ(rules_in_force(database_).version, "10");
   EXPECT_EQ(ask("GET", "/").body.find("Newer rules"), std::string::npos);
 }

@@ -80,7 +80,8 @@ TEST(SignInLimit, FiveWrongThenAGrowingWait) {
   SignInLimit limit;
   for (int i = 0; i < 5; ++i) EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin), 0) << i;
   EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin), 30);
-  EXPECT_EQ(limit.begin("ANNA", "10.0.0.2", kBegin + seconds(10)), 20) << "the login counts from anywhere, in any case";
+  EXPECT_EQ(limit.begin("ANNA", "10.0.0.1", kBegin + seconds(10)), 20) << "in any case";
+  EXPECT_EQ(limit.begin("anna", "10.0.0.2", kBegin + seconds(10)), 0) << "elsewhere she gets in";
   EXPECT_EQ(limit.begin("boris", "10.0.0.1", kBegin + seconds(10)), 20) << "the address counts for any login";
   EXPECT_EQ(limit.begin("boris", "10.0.0.2", kBegin), 0);
   EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin + seconds(30)), 0) << "held back tries count nothing";
@@ -88,8 +89,8 @@ TEST(SignInLimit, FiveWrongThenAGrowingWait) {
   EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin + seconds(90)), 0);
   EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin + seconds(90)), 120);
   EXPECT_EQ(limit.begin("boris", "10.0.0.1", kBegin + minutes(17)), 0) << "an address is forgiven after 15 minutes";
-  EXPECT_EQ(limit.begin("anna", "10.0.0.3", kBegin + seconds(210)), 0);
-  EXPECT_EQ(limit.begin("anna", "10.0.0.3", kBegin + seconds(210)), 240) << "a login after a day";
+  EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin + seconds(210)), 0);
+  EXPECT_EQ(limit.begin("anna", "10.0.0.1", kBegin + seconds(210)), 240) << "a login after a day";
 }
 
 TEST(SignInLimit, SomeHundredGuessesADay) {
@@ -114,6 +115,19 @@ TEST(SignInLimit, TheRightOneClearsTheLoginNotTheAddress) {
   EXPECT_EQ(limit.begin("anna", "10.0.0.9", kBegin), 0);
   EXPECT_EQ(limit.begin("boris", "10.0.0.1", kBegin), 0) << "its own try did not count, four wrong ones did";
   EXPECT_GT(limit.begin("boris", "10.0.0.1", kBegin), 0);
+}
+
+TEST(SignInLimit, GuessesFromManyAddressesWaitButNotWhereTheLoginWasRight) {
+  SignInLimit limit;
+  EXPECT_EQ(limit.begin("ines", "10.0.0.1", kBegin), 0);
+  limit.was_right("ines", "10.0.0.1");
+  int taken = 0;
+  for (int i = 0; i < 250; ++i) taken += limit.begin("ines", "10.2.0." + std::to_string(i), kBegin) == 0;
+  EXPECT_EQ(taken, 100);
+  EXPECT_EQ(limit.begin("ines", "10.0.0.2", kBegin), 30);
+  EXPECT_EQ(limit.begin("Ines", "10.0.0.1", kBegin), 0) << "where she has been before she gets in";
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(limit.begin("ines", "10.0.0.1", kBegin), 0);
+  EXPECT_EQ(limit.begin("ines", "10.0.0.1", kBegin), 30) << "guessing waits there too";
 }
 
 TEST(SignInLimit, KeepsItsSizeAndItsHeldBack) {

@@ -49,16 +49,29 @@ TEST_F(DeskSigning, EveryRouteThatBindsAsksForIt) {
   }
 }
 
-TEST_F(DeskSigning, WrongOnesCountTowardsTheWaitOfTheLogin) {
-  const Visitor ines = signed_in("ines");
+TEST_F(DeskSigning, WrongOnesMakeTheSessionWaitAndNobodyElse) {
+  const Visitor ines = signed_in("ines"), elsewhere = signed_in("ines");
   for (int i = 0; i < 5; ++i) post(ines, sign_path(), "meaning=review&password=wrong+wrong");
   const Answer late = post(ines, sign_path(), "meaning=review" + kGood);
   EXPECT_EQ(late.response.status, 400);
   EXPECT_NE(late.response.body.find("Too many wrong tries. Wait 30 s"), std::string::npos);
-  EXPECT_EQ(try_sign_in("ines", kPassword, stranger()).response.status, 429);
+  EXPECT_EQ(post(ines, sign_path(), "meaning=review&password=580279").response.status, 400) << "nor a PIN";
   EXPECT_EQ(signatures(), 0U);
+  EXPECT_EQ(post(elsewhere, sign_path(), "meaning=approval" + kGood).response.status, 303);
+  EXPECT_EQ(try_sign_in("ines", kPassword, stranger()).response.status, 303);
   now_ += std::chrono::seconds(31);
   EXPECT_EQ(post(ines, sign_path(), "meaning=review" + kGood).response.status, 303);
+}
+
+TEST_F(DeskSigning, WrongSignInsOfOthersStopNobodyWhoIsSignedIn) {
+  const Visitor ines = signed_in("ines");
+  for (const auto& [from, meaning] : {std::pair("10.0.0.50", "review"), std::pair("10.0.0.7", "approval")}) {
+    address_ = from;
+    for (int i = 0; i < 9; ++i) try_sign_in("ines", "wrong wrong", stranger());
+    EXPECT_EQ(try_sign_in("ines", kPassword, stranger()).response.status, 429);
+    EXPECT_EQ(post(ines, sign_path(), std::string("meaning=") + meaning + kGood).response.status, 303) << from;
+  }
+  EXPECT_EQ(signatures(), 2U);
 }
 
 TEST_F(DeskSigning, GuessesAtPinsKeepNobodyWithAPasswordOut) {

@@ -8,13 +8,17 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <future>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <thread>
 
 namespace trocar::review::waiting_room_test {
 namespace {
 
 using std::chrono::milliseconds;
+
+constexpr const char* kGet = "GET / HTTP/1.1\r\nHost: desk\r\n\r\n";
 
 /// A room that listens on a loopback port, and one visitor who has just come.
 class WaitingRoomTest : public testing::Test {
@@ -37,8 +41,9 @@ class WaitingRoomTest : public testing::Test {
   void open(const RoomLimits& limits = {}) {
     room_ = std::make_unique<WaitingRoom>(limits, [this](std::shared_ptr<Connection> connection, Received received) {
       ++served_;
-      last_ = connection;
-      received_.set_value(std::move(received));
+      const std::scoped_lock lock(mutex_);
+      whole_.emplace_back(std::move(connection), std::move(received));
+      came_.notify_one();
     });
   }
   /// @param from address on this machine. @returns the visitor's number.
@@ -65,7 +70,23 @@ class WaitingRoomTest : public testing::Test {
       out.append(piece, static_cast<std::size_t>(count));
     return out;
   }
-  Received received() { return received_.get_future().get(); }
+  /// The next request; last_ is its connection.
+  Received received() {
+    std::unique_lock lock(mutex_);
+    came_.wait(lock, [&] { return !whole_.empty(); });
+    Received out = std::move(whole_.front().second);
+    last_ = std::move(whole_.front().first);
+    whole_.pop_front();
+    return out;
+  }
+  /// A visitor who asks, is answered with more than the machine buffers, and takes nothing of it.
+  std::size_t stand(const char* from) {
+    const std::size_t who = come(from);
+    say(kGet, who);
+    received();
+    room_->send(std::move(last_), std::string(64U << 20U, 'x'));
+    return who;
+  }
   /// Status of the refusal, 200 for a request. @param words that the visitor says; then it ends, or does not.
   int refusal(const std::string& words, const RequestLimits& limits = {}, bool ends = false) {
     RoomLimits given;
@@ -82,7 +103,9 @@ class WaitingRoomTest : public testing::Test {
   int listener_ = -1;
   sockaddr_in at_{};
   std::vector<int> theirs_;
-  std::promise<Received> received_;
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::deque<std::pair<std::shared_ptr<Connection>, Received>> whole_;
   std::shared_ptr<Connection> last_;
   std::atomic<int> served_{0};
   std::unique_ptr<WaitingRoom> room_;
@@ -187,6 +210,40 @@ TEST_F(WaitingRoomTest, AllPlacesTogetherAreBoundedToo) {
   EXPECT_EQ(rest(first), "");
   say("GET / HTTP/1.1\r\nHost: desk\r\n\r\n", third);
   EXPECT_TRUE(std::holds_alternative<ReceivedRequest>(received()));
+}
+
+TEST_F(WaitingRoomTest, WhoTakesNothingOfAnAnswerYieldsTheLongestStandingFirst) {
+  RoomLimits limits;
+  limits.of_one_address = 2;
+  open(limits);
+  const std::size_t first = stand("127.0.0.1");
+  std::this_thread::sleep_for(milliseconds(20));
+  const std::size_t second = stand("127.0.0.1");
+  const std::size_t third = come();
+  say(kGet, third);
+  received();
+  room_->send(std::move(last_), "answer");
+  EXPECT_EQ(rest(third), "answer");
+  EXPECT_LT(rest(first).size(), 64U << 20U) << "it had stood longest";
+  EXPECT_EQ(rest(second).size(), 64U << 20U) << "slow, and there is room";
+}
+
+TEST_F(WaitingRoomTest, AddressesThatHoldMostPlacesYieldBeforeOthers) {
+  RoomLimits limits;
+  limits.places = 4;
+  limits.of_one_address = 3;
+  open(limits);
+  const std::size_t honest = stand("127.0.0.2");
+  std::this_thread::sleep_for(milliseconds(20));
+  for (int i = 0; i < 3; ++i) stand("127.0.0.3");
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t who = come("127.0.0.4");
+    say(kGet, who);
+    received();
+    room_->send(std::move(last_), "answer");
+    EXPECT_EQ(rest(who), "answer");
+  }
+  EXPECT_EQ(rest(honest).size(), 64U << 20U) << "it stood longest, and takes its answer now";
 }
 
 TEST_F(WaitingRoomTest, KnowsBothEnds) {

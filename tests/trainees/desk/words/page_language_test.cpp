@@ -16,11 +16,16 @@
 #include "tests/trainees/desk/pages/page_samples.h"
 #include "tests/trainees/desk/server/desk_samples.h"
 #include "tests/trainees/records/cohort_samples.h"
+#include "trainees/desk/pages/attempt_parts.h"
 #include "trainees/desk/pages/desk_page.h"
 #include "trainees/desk/pages/page_frame.h"
 #include "trainees/desk/queries/desk_queries.h"
 #include "trainees/desk/routes/route_table.h"
+#include "trainees/integrity/audit.h"
+#include "trainees/integrity/sealed_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_store.h"
+#include "trainees/records/replica_facts.h"
 #include "trainees/records/trainee_store.h"
 
 namespace trocar::review::page_language_test {
@@ -184,7 +189,8 @@ class AllPages : public testing::Test {
 /// Names, codes and data of the samples that stand among the desk's own words, and texts that a sample made up.
 const std::regex kData(
     "(alvarez|brandt|chen|dubois|expert|standard|ready|sha256|Tremor|X-1|reach-and-orient.*|surface-touch.*|"
-    "limited-grasp.*|Metric no.*|words of .*|.*19 Mar.*|Compare: reach-and-orient .*|.*[Cc]ritical force.*|"
+    "limited-grasp.*|Metric no.*|words of .*|.*19 Mar.*|(Compare|Trocar desk): reach-and-orient .*|.*[Cc]ritical "
+    "force.*|"
     ".*(In|in) band.*|Excess|.*Excess: .*|.*went past.*|.*without a pass|.*over the newest.*|.*2 Feb|certificate of 1 "
     "Mar.*|largest \\|F\\|.*|Synthetic phantom, CC0-1\\.0|trocar 0\\.7|board 3, organ phantom.*)");
 
@@ -200,6 +206,54 @@ TEST_F(AllPages, EveryTextHasATranslation) {
     }
     for (const std::string& text : asked.unknown) EXPECT_TRUE(std::regex_match(text, kData)) << code << ": " << text;
   }
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// What the record and the program write, as pages show it.
+TEST(Catalogues, SayWhatARecordBringsOntoPages) {
+  std::set<std::string> texts = {
+      "certificate of 30 Nov 2026: 1 of the 16 attempts that it stands on was decided not passed by Ann on 30 Nov "
+      "2026: x",
+      "In question: 2 of the 16 attempts that it stands on were decided not passed by Ann on 30 Nov 2026: x. Look, and "
+      "withdraw it if it must not stand.",
+      "the attempt that it cites is no longer the one that was certified",
+      "attempt 01a2, on which it stands, is another person's",
+      "trocar run at vm, process 3764",
+      "The clock began",
+      "Film, Surface touch L1, demo-emil - Trocar desk",
+      "Surface touch L1 (withdrawn)",
+      "an account that is gone (01a22e4c)",
+      "from"};
+  for (const auto& file : std::filesystem::directory_iterator(kTree / "scenarios/scoring")) {
+    if (!file.path().filename().string().ends_with("metrics.cpp")) continue;
+    const std::string source = text_of(file.path());
+    static const std::regex pushed("\\{\"([a-z]+_[a-z0-9_]+)\",");
+    for (auto it = std::sregex_iterator(source.begin(), source.end(), pushed); it != std::sregex_iterator(); ++it)
+      texts.insert(metric_title((*it)[1]));
+  }
+  EXPECT_GT(texts.size(), 50U);
+  for (const std::string& table : sealed_tables()) texts.insert(table + " added");
+  for (const char* action : {kActionBegun, kActionFinished, kActionReplicated, kActionStation, kActionMessage,
+                             kActionRenewed, kActionMade, kActionMigrated, kActionKey, kActionReplica, kActionLinked})
+    texts.insert(action);
+  for (const char* code : {"de", "fr"}) {
+    const PageLanguage language(kFolder, code);
+    AskedWords asked;
+    for (const std::string& text : texts) language.words(text, &asked);
+    EXPECT_EQ(asked.unknown, std::set<std::string>{}) << code;
+  }
+  const PageLanguage german(kFolder, "de");
+  EXPECT_EQ(german.words("programme Basics: 0 of 3 passes, 0 of 2 days"),
+            "Programm Basics: 0 von 3 bestanden, an 0 von 2 Tagen");
+  EXPECT_EQ(german.words("Surface touch L1, Ready - Trocar desk"), "Oberfläche berühren L1, Ready - Trocar-Pult")
+      << "a code stays, whatever it says";
+  EXPECT_NE(german.words("Due"), german.words("By"));
 }
 
 TEST_F(AllPages, NamesAndNotesStayWhateverTheySay) {
@@ -231,13 +285,6 @@ std::vector<std::filesystem::path> sources_in(const char* room) {
     for (const char* kind : {".cpp", ".h", ".toml"})
       if (entry.path().extension() == kind) out.push_back(entry.path());
   return out;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 /// Entries that sample pages do not show: their words stand together in the sources that make pages.
@@ -365,6 +412,7 @@ const std::map<std::string, std::string> kOperands = {
     {"record_backup size_text", "1.2 GB"},
     {"rules called", "'A-17'"},
     {"rules short_text", "7"},
+    {"signing lost", "its key A-17 is missing: what is written now is not signed, which db check tells for ever"},
     {"signing why", "accounts are kept here, so only an account can sign: sign in first"},
     {"sqlite_handle message", "A-17: cannot run a statement: A-17"}};
 
@@ -510,6 +558,15 @@ TEST(Refusals, AreReadAsTheyStandOnPages) {
             "Liste, Zeile 3, Spalte 5: ein Anführungszeichen wird geöffnet und nie geschlossen.");
   EXPECT_EQ(french.words("standard:3:4: 'unsafe.window' must be a whole number"),
             "standard, ligne 3, colonne 4 : 'unsafe.window' doit être un nombre entier");
+  EXPECT_EQ(
+      german.words("This record takes no decisions now: its key desk.db.key is missing: what is written now is not "
+                   "signed, which db check tells for ever. Put it back, or make a new one with trocar db key "
+                   "--renew."),
+      "Diese Akte nimmt jetzt keine Entscheidungen an: ihr Schlüssel desk.db.key fehlt: was jetzt geschrieben "
+      "wird, ist nicht signiert, was db check für immer sagt. Legen Sie ihn zurück, oder machen Sie mit trocar "
+      "db key --renew einen neuen.");
+  EXPECT_EQ(french.words("You cannot sign, decide or certify: the station's key is missing."),
+            "Vous ne pouvez ni signer, ni décider, ni certifier : la clé du poste manque.");
   EXPECT_EQ(german.words("Is there already as Ann, deactivated."), "Ist schon da als Ann, deaktiviert.");
   EXPECT_EQ(german.words("Not done. No certificate. Competence has not been shown: 3 attempts, none passed yet."),
             "Nicht ausgeführt. Kein Zertifikat. Das Können ist nicht gezeigt: 3 Versuche, noch keiner bestanden.");
