@@ -181,16 +181,18 @@ bool held_before(const std::string& holder, const std::string& row_hash, const s
   return true;
 }
 
-/// Whether that key has signed what the entry says.
-bool signed_by(sqlite3* connection, std::int64_t position, const std::string& key) {
-  sql::Statement row(connection,
-                     "SELECT position, utc, actor, action, subject, detail, prev_hash, row_hash, signature FROM audit"
-                     " WHERE position = ?");
-  if (position < 1 || !row.bind(position).step() || !can_be_divided(row)) return false;
+/// Whether that key has signed what the entry says, a row of kEntryColumns.
+bool is_signed(const sql::Statement& row, const std::string& key) {
+  if (!can_be_divided(row)) return false;
   // The signature is of the hash: what the entry says must be what was hashed.
   const std::string hash =
-      hash_of(row.text(6), position, row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
+      hash_of(row.text(6), row.integer(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5));
   return hash == row.text(7) && held_before(key, hash, row.text(8));
+}
+
+bool signed_by(sqlite3* connection, std::int64_t position, const std::string& key) {
+  sql::Statement row(connection, std::string("SELECT ") + kEntryColumns + " FROM audit WHERE position = ?");
+  return position >= 1 && row.bind(position).step() && is_signed(row, key);
 }
 
 /// Whether the trail up to there is whole: then who signed its last entry vouches for what the others say. Once for the
@@ -219,6 +221,14 @@ std::vector<AnnouncedKey> trusted_keys(sqlite3* connection) {
   while (!keys.empty() && keys.back().public_key != own) keys.pop_back();
   const bool vouched = !keys.empty() && (keys.back().position == 1 || whole_up_to(connection, keys));
   return vouched ? keys : std::vector<AnnouncedKey>{{1, own}};
+}
+
+/// The last of them that was named up to that entry; "": none.
+std::string key_among(const std::vector<AnnouncedKey>& keys, std::int64_t position) {
+  std::string holder;
+  for (const AnnouncedKey& key : keys)
+    if (key.position <= position) holder = key.public_key;
+  return holder;
 }
 
 /// Entry of the attempt that began; position 0: none.
@@ -338,12 +348,7 @@ AuditHead audit_head(sqlite3* connection) {
   return {last.integer(0), last.text(1)};
 }
 
-std::string key_at(sqlite3* connection, std::int64_t position) {
-  std::string holder;
-  for (const AnnouncedKey& key : trusted_keys(connection))
-    if (key.position <= position) holder = key.public_key;
-  return holder;
-}
+std::string key_at(sqlite3* connection, std::int64_t position) { return key_among(trusted_keys(connection), position); }
 
 std::string key_of_attempt(sqlite3* connection, const std::string& uuid) {
   const std::int64_t began = beginning_of(connection, uuid).position;
@@ -355,6 +360,13 @@ bool entry_signed(sqlite3* connection, std::int64_t position) {
   const std::string holder = key_at(connection, position);
   if (holder.empty()) return true;
   return signed_by(connection, position, holder);
+}
+
+bool SignedEntries::contains(const sql::Statement& entry) {
+  if (entry.integer(0) < 1) return false;
+  if (!keys_) keys_ = trusted_keys(connection_);
+  const std::string holder = key_among(*keys_, entry.integer(0));
+  return holder.empty() || is_signed(entry, holder);
 }
 
 std::string audit_hash(sqlite3* connection, std::int64_t position) {

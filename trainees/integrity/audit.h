@@ -8,8 +8,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "trainees/integrity/station_key.h"
+#include "trainees/store/sqlite_handle.h"
 
 struct sqlite3;
 
@@ -77,6 +81,23 @@ std::string key_of_attempt(sqlite3* connection, const std::string& uuid);
 
 /// Whether the station's key at that entry has signed what it says, or it is older than the first.
 bool entry_signed(sqlite3* connection, std::int64_t position);
+
+/// What a query of entries selects for SignedEntries.
+inline constexpr const char* kEntryColumns =
+    "position, utc, actor, action, subject, detail, prev_hash, row_hash, signature";
+
+/// entry_signed() of many entries that are read anyway: the keys that count are looked up once, so nothing is to be
+/// written while it lives.
+class SignedEntries {
+ public:
+  explicit SignedEntries(sqlite3* connection) : connection_(connection) {}
+  /// @param entry row of kEntryColumns.
+  bool contains(const sql::Statement& entry);
+
+ private:
+  sqlite3* connection_;
+  std::optional<std::vector<AnnouncedKey>> keys_ = {};
+};
 
 /// What the station's key signs of an entry.
 std::string head_text(const std::string& row_hash);

@@ -140,27 +140,12 @@ void check_texts(sqlite3* connection, std::vector<std::string>& problems) {
   }
 }
 
-/// Position of the signed entry that the row is as; 0: none.
-std::int64_t entry_of_row(sqlite3* connection, const std::string& table, std::int64_t row) {
-  sql::Statement content(connection, query_of(table_named(table)) + " WHERE r.id = ?");
-  if (!content.bind(row).step()) return 0;
-  const std::string digest = digest_of_columns(table, content);
-  const bool account = table == kAccountTable;
-  sql::Statement entries(connection, account ? "SELECT position, detail FROM audit WHERE subject = ? AND action GLOB ?"
-                                               " ORDER BY position DESC LIMIT 1"
-                                             : "SELECT position, detail FROM audit WHERE subject = ? AND action = ?");
-  entries.bind(content.text(0)).bind(table + (account ? " *" : " added"));
-  while (entries.step())
-    if (entries.text(1) == digest && entry_signed(connection, entries.integer(0))) return entries.integer(0);
-  return 0;
-}
-
 template <bool kPosition>
 void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
   const auto* table = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
   try {
-    const std::int64_t entry =
-        entry_of_row(sqlite3_context_db_handle(context), table == nullptr ? "" : table, sqlite3_value_int64(values[1]));
+    const std::int64_t entry = RowEntries(sqlite3_context_db_handle(context), table == nullptr ? "" : table)
+                                   .of(sqlite3_value_int64(values[1]));
     if (kPosition && entry == 0)
       sqlite3_result_null(context);
     else
@@ -171,6 +156,27 @@ void say_row_holds(sqlite3_context* context, int /*count*/, sqlite3_value** valu
 }
 
 }  // namespace
+
+RowEntries::RowEntries(sqlite3* connection, const std::string& table)
+    : table_(table),
+      account_(table == kAccountTable),
+      content_(connection, query_of(table_named(table)) + " WHERE r.id = ?"),
+      entries_(connection, std::string("SELECT ") + kEntryColumns + " FROM audit WHERE subject = ? AND action " +
+                               (account_ ? "GLOB ? ORDER BY position DESC LIMIT 1" : "= ?")),
+      signed_(connection) {}
+
+std::int64_t RowEntries::of(std::int64_t row) {
+  std::int64_t found = 0;
+  if (content_.bind(row).step()) {
+    const std::string digest = digest_of_columns(table_, content_);
+    entries_.bind(content_.text(0)).bind(table_ + (account_ ? " *" : " added"));
+    while (found == 0 && entries_.step())
+      if (entries_.view(5) == digest && signed_.contains(entries_)) found = entries_.integer(0);
+    entries_.run();
+  }
+  content_.run();
+  return found;
+}
 
 void add_row_holds(sqlite3* connection) {
   const std::pair<const char*, decltype(&say_row_holds<false>)> kFunctions[] = {{"row_holds", say_row_holds<false>},
@@ -211,7 +217,7 @@ std::string newest_first(const std::string& table, const std::string& row, const
 }
 
 bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row) {
-  return entry_of_row(connection, table, row) > 0;
+  return RowEntries(connection, table).of(row) > 0;
 }
 
 std::string digest_of_row(sqlite3* connection, const std::string& table, const std::string& uuid) {

@@ -15,6 +15,9 @@
 #include <string_view>
 #include <vector>
 
+#include "trainees/integrity/audit.h"
+#include "trainees/store/sqlite_handle.h"
+
 struct sqlite3;
 
 namespace trocar {
@@ -53,6 +56,21 @@ std::string digest_of_row(sqlite3* connection, const std::string& table, const s
 /// signed): what somebody wrote into the file lets nobody in and rules nothing. @param row its id, for an index may
 /// have been made to lead from a UUID to another row.
 bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row);
+
+/// The signed entries that rows of one table are as: row_holds() of many. Statements are prepared and keys looked up
+/// once, so nothing is to be written while it lives.
+class RowEntries {
+ public:
+  RowEntries(sqlite3* connection, const std::string& table);
+  /// Position of the entry, 0: none, the row does not hold.
+  std::int64_t of(std::int64_t row);
+
+ private:
+  std::string table_;
+  bool account_;
+  sql::Statement content_, entries_;
+  SignedEntries signed_;
+};
 
 /// For queries: row_holds(TABLE, id), 1 or 0, and row_entry(TABLE, id), the entry that says so, NULL without.
 void add_row_holds(sqlite3* connection);

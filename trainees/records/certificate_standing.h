@@ -34,7 +34,8 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
 
 /// UUIDs of certificates of which standing_of() could not say a word: signed, of whose attempts all are the person's
 /// and nobody has decided on one, and the one that they cite is as it was. For lists, which cannot ask of thousands one
-/// by one; of any other certificate standing_of() tells.
+/// by one; of any other certificate standing_of() tells. All is read anew each time: who may write the file can change
+/// any row, and only the rows tell which.
 std::set<std::string> certificates_beyond_doubt(const Database& database);
 
 /// UUIDs of the attempts that count on the curve of this one, oldest first: what a certificate given now stands on.

@@ -106,15 +106,17 @@ Statement& Statement::bind_null() {
 
 bool Statement::step() {
   const int code = sqlite3_step(statement_);
+  done_ = code == SQLITE_DONE;
   if (code == SQLITE_ROW) return true;
-  if (code == SQLITE_DONE) return false;
+  if (done_) return false;
   raise(connection_, code, "cannot run a statement");
 }
 
 void Statement::run() {
-  while (step()) {
+  while (!done_ && step()) {  // a step after the last one would begin again
   }
   check(sqlite3_reset(statement_));
+  done_ = false;
   next_parameter_ = 1;
 }
 

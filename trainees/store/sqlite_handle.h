@@ -75,6 +75,7 @@ class Statement {
   std::shared_ptr<StatementCache> cache_;
   sqlite3_stmt* statement_ = nullptr;
   int next_parameter_ = 1;
+  bool done_ = false;  ///< the last step found no further row
 };
 
 /// The single integer that a query gives.

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/trainees/records/store_samples.h"
+#include "trainees/records/accounts.h"
+#include "trainees/records/erasure.h"
 #include "trainees/records/trainee_store.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -138,6 +140,101 @@ TEST_F(Standing, OfAnOlderCertificateTheTrailTells) {
 TEST_F(Standing, IsInQuestionWhenTheCitedAttemptIsAnother) {
   const Certificate given = certify({{"row_hash", "0123"}});
   EXPECT_EQ(doubt(given), "the attempt that it cites is no longer the one that was certified");
+}
+
+/// One connection asks for the list, another one writes, with so many certificates that all names are read at once.
+class StandingOfMany : public TemporaryFolder {
+ protected:
+  StandingOfMany() {
+    const Account signs = AccountStore(other_).add("ida", "Ida Adler", Role::kInstructor, "", "a long password", "");
+    author_ = {signs.uuid, signs.name};
+    for (int k = 0; k < kPeople; ++k) {
+      const std::string code = "T-" + std::to_string(k);
+      AttemptStart start = sample_start(code);
+      std::vector<std::string> attempts;
+      for (const double score : {90., 92.}) {
+        ++start.board;
+        attempts.push_back(store_attempt(other_, start, sample_result(score)).uuid);
+      }
+      const json evidence = {{"attempt", attempts[1]},
+                             {"attempts", attempts_of_curve(other_, attempts[1])},
+                             {"overrides", json::array()},
+                             {"row_hash", sql::query_text(other_.connection(),
+                                                          "SELECT row_hash FROM attempt"
+                                                          " ORDER BY id DESC LIMIT 1")}};
+      given_.push_back(said_.certify(code, "surface-touch", "L1", "1", evidence.dump(), author_));
+    }
+  }
+  /// As somebody does who may write the file.
+  void behind(const std::string& text) { EXPECT_EQ(run_without_triggers(folder_ / "t.db", text), ""); }
+  /// Those of which the list does not say that they are beyond doubt; as each by itself says.
+  std::vector<int> doubted() {
+    const std::set<std::string> stand = certificates_beyond_doubt(database_);
+    std::vector<int> out;
+    for (int k = 0; k < kPeople; ++k) {
+      if (!stand.contains(given_[k].uuid)) out.push_back(k);
+      EXPECT_NE(stand.contains(given_[k].uuid), standing_of(database_, given_[k]).in_question != "") << k;
+    }
+    return out;
+  }
+
+  static constexpr int kPeople = 105;
+  Database other_{folder_ / "t.db"}, database_{folder_ / "t.db"};
+  AssessmentStore said_{other_};
+  Author author_;
+  std::vector<Certificate> given_;
+};
+
+TEST_F(StandingOfMany, SeesWhatAnotherConnectionWrites) {
+  EXPECT_EQ(doubted(), std::vector<int>{});
+  said_.override_verdict(standing_of(database_, given_[7]).attempts[0].uuid, false, kReason, author_);
+  EXPECT_EQ(doubted(), std::vector<int>{7});
+  behind("UPDATE attempt SET trainee_id = 1 WHERE id = 81");
+  EXPECT_EQ(doubted(), (std::vector<int>{7, 40})) << "another person's";
+  behind("UPDATE attempt SET trainee_id = 41 WHERE id = 81");
+  EXPECT_EQ(doubted(), std::vector<int>{7}) << "as it was";
+  behind("UPDATE attempt SET row_hash = 'x' WHERE id = 84");
+  EXPECT_EQ(doubted(), (std::vector<int>{7, 41})) << "the one that it cites";
+  behind("UPDATE certificate SET utc = '2020' WHERE id = 51");
+  EXPECT_EQ(doubted(), (std::vector<int>{7, 41, 50})) << "not as it was signed";
+  behind("UPDATE audit SET detail = detail || 'x' WHERE action = 'certificate added' AND subject = '" +
+         given_[51].uuid + "'");
+  EXPECT_EQ(doubted(), (std::vector<int>{7, 41, 50, 51})) << "nor the entry";
+}
+
+TEST_F(StandingOfMany, AnAttemptThatIsGonePutsNoneInQuestionAndOneThatComesBackElsewhereDoes) {
+  const std::string uuid = standing_of(database_, given_[9]).attempts[0].uuid;
+  behind("UPDATE attempt SET uuid = 'elsewhere' WHERE uuid = '" + uuid + "'");
+  EXPECT_EQ(doubted(), std::vector<int>{});
+  behind("UPDATE attempt SET uuid = '" + uuid + "' WHERE id = 1");
+  EXPECT_EQ(doubted(), std::vector<int>{9});
+}
+
+TEST_F(StandingOfMany, OneMoreIsBeyondDoubtAndThoseOfWhoWasErasedAreNoMore) {
+  EXPECT_EQ(certificates_beyond_doubt(database_).size(), std::size_t{kPeople});
+  const std::string attempt = store_attempt(other_, sample_start("T-new"), sample_result(95)).uuid;
+  said_.certify("T-new", "surface-touch", "L1", "1",
+                R"({"attempt":")" + attempt + R"(","attempts":[")" + attempt + R"("],"overrides":[]})", author_);
+  EXPECT_EQ(certificates_beyond_doubt(database_).size(), std::size_t{kPeople} + 1);
+  erase_trainee(other_, "T-12", ErasureKind::kTraining, "request", author_);
+  const std::set<std::string> stand = certificates_beyond_doubt(database_);
+  EXPECT_EQ(stand.size(), std::size_t{kPeople});
+  EXPECT_FALSE(stand.contains(given_[12].uuid));
+}
+
+TEST_F(StandingOfMany, ANameThatIsWrittenInAnotherWayIsOneAllTheSame) {
+  AttemptStart start = sample_start("T-new");
+  const std::string named = store_attempt(other_, start, sample_result(95)).uuid;
+  ASSERT_EQ(named[0], '0');
+  ++start.board;
+  const std::string cited = store_attempt(other_, start, sample_result(95)).uuid;
+  const Certificate given = said_.certify(
+      "T-new", "surface-touch", "L1", "1",
+      R"({"attempt":")" + cited + R"(","attempts":["\u0030)" + named.substr(1) + R"("],"overrides":[]})", author_);
+  EXPECT_EQ(standing_of(database_, given).in_question, "");
+  behind("UPDATE attempt SET trainee_id = 1 WHERE uuid = '" + named + "'");
+  EXPECT_NE(standing_of(database_, given).in_question, "");
+  EXPECT_FALSE(certificates_beyond_doubt(database_).contains(given.uuid));
 }
 
 }  // namespace
