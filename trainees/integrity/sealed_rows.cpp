@@ -210,10 +210,9 @@ std::string newest_first(const std::string& table, const std::string& row, const
   // What was written here was written after all that stood here: it counts as if it had the greatest UUID of these.
   // That of a program's own is so by itself; rows of older programs and a clock that was set back are not.
   const std::string entry = "row_entry('" + table + "', " + row + ".id)";
-  return " ORDER BY (SELECT CASE n.actor WHEN '" + std::string(kFromCentre) + "' THEN " + row +
-         ".uuid ELSE (SELECT max(w.uuid) FROM " + table + " w WHERE w." + of + " = " + row + "." + of +
-         " AND row_entry('" + table + "', w.id) <= n.position) END FROM audit n WHERE n.position = " + entry +
-         ") DESC, " + entry + " DESC";
+  return " ORDER BY CASE (SELECT n.actor FROM audit n WHERE n.position = " + entry + ") WHEN '" +
+         std::string(kFromCentre) + "' THEN " + row + ".uuid ELSE max(" + row + ".uuid) FILTER (WHERE " + entry +
+         " IS NOT NULL) OVER (PARTITION BY " + row + "." + of + " ORDER BY " + entry + ") END DESC, " + entry + " DESC";
 }
 
 bool row_holds(sqlite3* connection, const std::string& table, std::int64_t row) {

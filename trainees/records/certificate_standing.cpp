@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <unordered_set>
 
@@ -96,39 +97,41 @@ std::string words_of(const std::vector<Doubt>& doubts, const std::string& cited,
   return what + " decided not passed by " + told.printed + " on " + told.utc.substr(0, 10) + ": " + reason;
 }
 
-/// Which attempts evidence names, asked of many certificates.
-class AttemptNames {
+/// Attempts of one person at one skill on which nobody has decided, asked of many certificates.
+class SoundAttempts {
  public:
-  explicit AttemptNames(sqlite3* connection) : row_(connection, "SELECT id FROM attempt WHERE uuid = ?") {
-    if (sql::query_integer(connection, "SELECT count(*) FROM certificate") < kWorthAll) return;
-    sql::Statement all(connection, "SELECT uuid, id FROM attempt ORDER BY uuid");  // out of the index alone
-    while (all.step()) {
-      const std::int64_t id = all.integer(1);
-      const std::string_view uuid = all.view(0);
-      if (id < 0 || id >= kMostKept || uuid.size() != kLength) continue;
-      if (const std::size_t end = kLength * static_cast<std::size_t>(id + 1); end > uuids_.size())
-        uuids_.resize(std::max(end, 2 * uuids_.size()), '"');  // what no text has
-      uuid.copy(uuids_.data() + kLength * static_cast<std::size_t>(id), kLength);
-    }
+  explicit SoundAttempts(sqlite3* connection)
+      : own_(connection,
+             "SELECT id, uuid FROM attempt INDEXED BY attempt_by_trainee WHERE trainee_id = ? AND exercise_id = ? AND"
+             " level = ? ORDER BY uuid"),  // out of the index alone
+        named_(connection, "SELECT 1 FROM attempt WHERE uuid = ?") {
+    sql::Statement decisions(connection, "SELECT attempt_id FROM verdict_override");
+    while (decisions.step()) decided_.insert(decisions.integer(0));
   }
 
-  /// Whether every attempt that the evidence could name is one of those. What it names is a JSON string, hence every
+  void look_up(std::int64_t trainee, std::string_view exercise, std::string_view level) {
+    uuids_.clear();
+    own_.bind(trainee).bind(exercise).bind(level);
+    while (own_.step())
+      if (own_.view(1).size() == kLength && !decided_.contains(own_.integer(0))) uuids_ += own_.view(1);
+    own_.run();
+  }
+
+  /// Whether every attempt that the evidence could name is one of them. What it names is a JSON string, hence every
   /// such string is looked at, as it stands: false where it could be written in another way.
-  bool all_among(std::string_view evidence, const std::vector<std::int64_t>& ids) {
+  bool hold_all_of(std::string_view evidence) {
     if (evidence.find('\\') != std::string_view::npos) return false;
-    auto next = ids.begin();  // evidence names them in their order
+    std::size_t next = 0;  // evidence names them in their order
     for (std::size_t begin = 0; (begin = evidence.find('"', begin)) != std::string_view::npos;) {
       const std::size_t end = evidence.find('"', ++begin);
       if (end == std::string_view::npos) return false;
       const std::string_view text = evidence.substr(begin, end - begin);
       begin = end + 1;
       if (begin < evidence.size() && evidence[begin] == ':') continue;  // a key
-      const auto is_named = [&](std::int64_t id) { return text.size() == kLength && uuid(id) == text; };
-      next = std::find_if(next, ids.end(), is_named);
-      if (next == ids.end()) next = std::find_if(ids.begin(), ids.end(), is_named);
-      if (next != ids.end())
+      if (next == size() || uuid(next) != text) next = place_of(text);
+      if (next < size() && uuid(next) == text)
         ++next;
-      else if (!none_or_among(text, ids))
+      else if (is_attempt(text))
         return false;
     }
     return true;
@@ -136,22 +139,24 @@ class AttemptNames {
 
  private:
   static constexpr std::size_t kLength = 36;
-  static constexpr std::int64_t kWorthAll = 100;      ///< certificates, for which reading all names takes less time
-  static constexpr std::int64_t kMostKept = 1 << 20;  ///< 38 MB; later ones are looked up
 
-  bool none_or_among(std::string_view uuid, const std::vector<std::int64_t>& ids) {
-    const bool holds = !row_.bind(uuid).step() || std::binary_search(ids.begin(), ids.end(), row_.integer(0));
-    row_.run();
-    return holds;
+  std::size_t size() const { return uuids_.size() / kLength; }
+  std::string_view uuid(std::size_t at) const { return std::string_view(uuids_).substr(kLength * at, kLength); }
+  /// Of the first that is not less.
+  std::size_t place_of(std::string_view text) const {
+    const auto all = std::views::iota(std::size_t{0}, size());
+    const auto found = std::ranges::lower_bound(all, text, {}, [this](std::size_t at) { return uuid(at); });
+    return static_cast<std::size_t>(found - all.begin());
+  }
+  bool is_attempt(std::string_view text) {
+    const bool found = named_.bind(text).step();
+    named_.run();
+    return found;
   }
 
-  std::string_view uuid(std::int64_t id) const {
-    const std::size_t at = kLength * static_cast<std::size_t>(id);
-    return id < 0 || at + kLength > uuids_.size() ? std::string_view() : std::string_view(uuids_).substr(at, kLength);
-  }
-
-  sql::Statement row_;
-  std::string uuids_ = {};  ///< kLength for each row
+  sql::Statement own_, named_;
+  std::unordered_set<std::int64_t> decided_;
+  std::string uuids_;  ///< kLength for each, in their order
 };
 
 }  // namespace
@@ -213,14 +218,8 @@ CertificateStanding standing_of(const Database& database, const Certificate& cer
 std::set<std::string> certificates_beyond_doubt(const Database& database) {
   sqlite3* connection = database.connection();
   const sql::ReadSnapshot snapshot(connection);
-  std::unordered_set<std::int64_t> decided;
-  sql::Statement decisions(connection, "SELECT attempt_id FROM verdict_override");
-  while (decisions.step()) decided.insert(decisions.integer(0));
-  AttemptNames names(connection);
+  SoundAttempts sound(connection);
   RowEntries entries(connection, "certificate");
-  sql::Statement own(connection,
-                     "SELECT id FROM attempt INDEXED BY attempt_by_trainee WHERE trainee_id = ? AND exercise_id = ? AND"
-                     " level = ? ORDER BY id");
   sql::Statement rows(
       connection,
       "SELECT c.uuid, c.id, c.trainee_id, c.exercise_id, c.level, c.evidence FROM certificate c WHERE"
@@ -228,14 +227,9 @@ std::set<std::string> certificates_beyond_doubt(const Database& database) {
       " AND NOT EXISTS (SELECT 1 FROM attempt a WHERE a.uuid = json_extract(c.evidence, '$.attempt') AND"
       " a.row_hash <> json_extract(c.evidence, '$.row_hash'))");
   std::set<std::string> out;
-  std::vector<std::int64_t> sound;  // attempts at the skill on which nobody has decided
   while (rows.step()) {
-    sound.clear();
-    own.bind(rows.integer(2)).bind(rows.view(3)).bind(rows.view(4));
-    while (own.step())
-      if (!decided.contains(own.integer(0))) sound.push_back(own.integer(0));
-    own.run();
-    if (names.all_among(rows.view(5), sound) && entries.of(rows.integer(1)) > 0) out.insert(rows.text(0));
+    sound.look_up(rows.integer(2), rows.view(3), rows.view(4));
+    if (sound.hold_all_of(rows.view(5)) && entries.of(rows.integer(1)) > 0) out.insert(rows.text(0));
   }
   return out;
 }

@@ -85,10 +85,10 @@ Assignment ProgrammeStore::assign(const std::string& programme, const std::strin
                                   const std::string& due, const Author& author) {
   if (trainee.empty() == group.empty()) throw InputError("assign: to one person or to one group");
   if (!due.empty()) end_of_day(due);
+  require_key(*database_);  // first: under another key no programme holds
   find(programme);
   sqlite3* connection = database_->connection();
   AnchoredTransaction transaction(*database_);
-  require_key(*database_);
   sql::Statement person(connection, "SELECT trainee_id FROM person WHERE code = ?");
   if (!trainee.empty() && !person.bind(trainee).step()) throw InputError("trainee \"" + trainee + "\": there is none");
   if (!trainee.empty()) require_person(connection, person.integer(0), trainee);

@@ -596,6 +596,11 @@ CREATE TABLE withdrawal (
 ) STRICT;
 )sql";
 
+/// A person's attempts at a skill with their names, out of the index alone: what certificates stand on.
+const std::string kByUuid =
+    "DROP INDEX IF EXISTS attempt_by_trainee;\n"
+    "CREATE INDEX attempt_by_trainee ON attempt(trainee_id, exercise_id, level, uuid);\n";
+
 constexpr const char kEndings[] = R"sql(
 CREATE TABLE erasure (
   id         INTEGER PRIMARY KEY,
@@ -774,8 +779,8 @@ const char* endings_schema_sql() {
       back += "INSERT OR IGNORE INTO " + table + " SELECT * FROM kept_" + table + ";\nDROP TABLE kept_" + table + ";\n";
       guards += never_changed(table) + never_replaced(table, "uuid = NEW.uuid");
     }
-    return kept + kEndings + back + guards + never_deleted("erasure") + never_deleted("revocation", kOfCertificate) +
-           never_deleted("withdrawal", kOfAssignment);
+    return kByUuid + kept + kEndings + back + guards + never_deleted("erasure") +
+           never_deleted("revocation", kOfCertificate) + never_deleted("withdrawal", kOfAssignment);
   }();
   return kSql.c_str();
 }

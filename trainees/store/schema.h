@@ -10,7 +10,7 @@ const char* programme_schema_sql();
 /// From here on each attempt has an entry of its beginning (integrity/audit.h); an older program would write none.
 const char* running_rows_schema_sql();
 /// What schema 5 changes: several erasures of a person, revocations of a certificate, withdrawals of an assignment may
-/// stand, so that one that somebody put in does not keep the signed one out.
+/// stand, so that one that somebody put in does not keep the signed one out; attempts of a person are found by name.
 const char* endings_schema_sql();
 
 }  // namespace trocar

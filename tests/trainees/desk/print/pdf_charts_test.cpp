@@ -49,7 +49,7 @@ TEST(PdfCharts, EveryChartOfTheDeskIsDrawn) {
   for (const auto& [svg, words] : std::vector<std::pair<std::string, std::string>>{
            {review::curve_svg(curve), "bench 88.5"},
            {review::cusum_svg(curve), "0"},
-           {review::weeks_svg(trainee.minutes_by_week), "to 2026-03-16"},
+           {review::weeks_svg(trainee.minutes_by_week), "to 16 Mar 2026"},
            {review::time_plot_svg(plot), "grip force"},
            {review::path_svg(*attempt.trace, review::kFromAbove, attempt.limits, 12), "mm"},
            {review::heat_svg(*attempt.trace, review::kFromSide, true), "mm"},
