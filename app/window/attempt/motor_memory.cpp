@@ -85,7 +85,13 @@ void MotorMemory::keep(const MotorStates& motors) const {
   if (failed) throw EnvironmentError(file_.string() + ": cannot be written: " + failed.message());
 }
 
-std::filesystem::path motor_folder() { return default_database_path().parent_path() / "motors"; }
+std::filesystem::path motor_folder() {
+  try {
+    return default_database_path().parent_path() / "motors";
+  } catch (const EnvironmentError&) {
+    return std::filesystem::temp_directory_path() / "trocar-motors";
+  }
+}
 
 std::string too_hot_to_begin(const MotorStates& motors) {
   const auto hottest = std::ranges::max_element(motors, {}, &MotorTemperatures::winding_c);

@@ -30,7 +30,7 @@ class MotorMemory {
   std::filesystem::path file_;
 };
 
-/// Folder of the machine's user. @throws EnvironmentError: there is none.
+/// Folder of the machine's user; one for temporary files where they have none.
 std::filesystem::path motor_folder();
 
 /// What a trainee must know before such motors may work: "" while none is at its warning temperature, else which is,

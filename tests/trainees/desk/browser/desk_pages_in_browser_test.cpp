@@ -64,12 +64,16 @@ TEST_F(DeskPages, AreSoundOnAPhone) {
 }
 
 TEST_F(DeskPages, OnAPhoneResultsAndVerdictAreSeenWithoutScrolling) {
+  add_accounts();
   {
     Database database(file_);
-    AssessmentStore(database).override_verdict(attempt_, true, "The stand slipped during it.", {"", "Dr Brandt"});
+    const Account ines = AccountStore(database).verify("ines", kDeskPassword).value();
+    AssessmentStore(database).override_verdict(attempt_, true, "The stand slipped during it.", {ines.uuid, ines.name});
   }
   serve(options());
   look({.width = 390, .height = 844, .phone = true});
+  browser_->open(at("/"));
+  sign_in("ines");
   browser_->open(at(std::string("/trainee/") + kRisky));
   EXPECT_GT(browser_->run("return document.querySelectorAll('.tries td').length").get<int>(), 6);
   EXPECT_EQ(browser_
