@@ -72,11 +72,15 @@ std::string row_hash(sqlite3* connection, const Link& link) {
                           content_of(connection, link.attempt));
 }
 
-constexpr const char* kLinks =
+const std::string kLink =
     "SELECT a.id, a.uuid, coalesce(r.chain_position, a.chain_position), coalesce(r.prev_hash, a.prev_hash), row_hash, "
-    "status, hash_version,"
-    " EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id AND e.kind = 'training')"
+    "status, hash_version";
+/// Whose training data are gone; an erasure that no signed entry holds excuses nothing.
+const std::string kErased =
+    "a.trainee_id IN (SELECT trainee_id FROM erasure WHERE kind = 'training' AND row_holds('erasure', id))";
+const std::string kFinishedAttempts =
     " FROM attempt a LEFT JOIN replica r ON r.attempt_id = a.id WHERE status <> 'running'";
+const std::string kLinks = kLink + ", " + kErased + kFinishedAttempts;
 constexpr const char* kOwn = " AND r.attempt_id IS NULL";
 constexpr const char* kOfOthers = " AND r.attempt_id IS NOT NULL";
 
@@ -101,13 +105,12 @@ Link next_link(sqlite3* connection, std::int64_t attempt, AttemptStatus status) 
 
 /// Rows that an erasure has taken away must not be there.
 void check_erased(sqlite3* connection, std::vector<std::string>& problems) {
-  sql::Statement rows(
-      connection,
-      "SELECT DISTINCT a.uuid FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE e.kind = 'training' "
-      "AND"
-      " (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id) OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id)"
-      " OR EXISTS (SELECT 1 FROM device_warning WHERE attempt_id = a.id)"
-      " OR EXISTS (SELECT 1 FROM device_transition WHERE attempt_id = a.id))");
+  sql::Statement rows(connection,
+                      "SELECT a.uuid FROM attempt a WHERE " + kErased +
+                          " AND (EXISTS (SELECT 1 FROM score WHERE attempt_id = a.id)"
+                          " OR EXISTS (SELECT 1 FROM event WHERE attempt_id = a.id)"
+                          " OR EXISTS (SELECT 1 FROM device_warning WHERE attempt_id = a.id)"
+                          " OR EXISTS (SELECT 1 FROM device_transition WHERE attempt_id = a.id)) ORDER BY a.id");
   while (rows.step())
     problems.push_back("attempt " + rows.text(0) + " has rows although its training data were erased");
 }
@@ -121,7 +124,7 @@ void check_replicas(sqlite3* connection, std::vector<std::string>& problems) {
                        "SELECT coalesce(r.chain_position, a.chain_position), a.row_hash FROM attempt a"
                        " LEFT JOIN replica r ON r.attempt_id = a.id WHERE a.row_hash IS NOT NULL");
   while (known.step()) there.insert(known.text(0) + " " + known.text(1));
-  sql::Statement links(connection, std::string(kLinks) + kOfOthers + " ORDER BY a.id");
+  sql::Statement links(connection, kLinks + kOfOthers + " ORDER BY a.id");
   while (links.step()) {
     const std::string name = "attempt " + links.text(1);
     const Link link = link_of(links);
@@ -165,7 +168,7 @@ void seal_attempt(sqlite3* connection, std::int64_t attempt, AttemptStatus statu
 }
 
 bool attempt_holds(sqlite3* connection, std::int64_t attempt) {
-  sql::Statement row(connection, std::string(kLinks) + " AND a.id = ?");
+  sql::Statement row(connection, kLink + kFinishedAttempts + " AND a.id = ?");
   return row.bind(attempt).step() && row_hash(connection, link_of(row)) == row.text(4);
 }
 
@@ -190,7 +193,7 @@ void require_vouched(sqlite3* connection, std::int64_t attempt, const std::strin
 
 std::vector<std::string> check_chain(sqlite3* connection) {
   std::vector<std::string> problems;
-  sql::Statement links(connection, std::string(kLinks) + kOwn + " ORDER BY a.chain_position");
+  sql::Statement links(connection, kLinks + kOwn + " ORDER BY a.chain_position");
   std::string previous;
   std::int64_t expected = 1;
   while (links.step()) {

@@ -5,8 +5,7 @@
 #include <random>
 
 #include "haptics/digest/digest.h"
-#include "trainees/integrity/audit.h"
-#include "trainees/store/sqlite_handle.h"
+#include "haptics/input_error.h"
 
 namespace trocar {
 namespace {
@@ -70,7 +69,9 @@ std::string newest_digest(sqlite3* connection, const KeptTable& table, const std
 }
 
 bool erased(sqlite3* connection, const std::string& trainee_uuid) {
-  sql::Statement row(connection, "SELECT 1 FROM erasure e JOIN trainee t ON t.id = e.trainee_id WHERE t.uuid = ?");
+  sql::Statement row(connection,
+                     "SELECT 1 FROM erasure e JOIN trainee t ON t.id = e.trainee_id WHERE t.uuid = ? AND"
+                     " row_holds('erasure', e.id)");
   return row.bind(trainee_uuid).step();
 }
 
@@ -103,7 +104,7 @@ WITH word AS (
   WHERE action IN ('group joined', 'group left', 'group joined elsewhere', 'group left elsewhere') GROUP BY subject, detail
 ), wanted AS (
   SELECT uuid, name FROM word WHERE joined
-  AND uuid NOT IN (SELECT t.uuid FROM erasure e JOIN trainee t ON t.id = e.trainee_id)
+  AND uuid NOT IN (SELECT t.uuid FROM erasure e JOIN trainee t ON t.id = e.trainee_id WHERE row_holds('erasure', e.id))
 ), present AS (
   SELECT t.uuid, m.group_name AS name FROM membership m JOIN trainee t ON t.id = m.trainee_id
 )
@@ -116,8 +117,9 @@ UNION ALL SELECT uuid, name, 'came in by another way' FROM (SELECT * FROM presen
 void check_seen(sqlite3* connection, std::vector<std::string>& problems) {
   sql::Statement rows(
       connection,
-      "SELECT n.uuid, coalesce(s.utc, ''), coalesce(u.detail, '') FROM note n LEFT JOIN note_seen s ON s.note_id = n.id"
-      " LEFT JOIN audit u ON u.subject = n.uuid AND u.action = 'note seen' ORDER BY n.uuid");
+      "SELECT n.uuid, coalesce(s.utc, ''), coalesce((SELECT CASE WHEN max(detail = s.utc) THEN s.utc ELSE min(detail)"
+      " END FROM audit WHERE subject = n.uuid AND action = 'note seen'), '') FROM note n LEFT JOIN note_seen s ON"
+      " s.note_id = n.id ORDER BY n.uuid");
   while (rows.step()) {
     const std::string seen = rows.text(1), kept = rows.text(2), name = "note " + rows.text(0);
     if (seen == kept) continue;
@@ -193,9 +195,32 @@ void keep_exercise_once(sqlite3* connection, const std::string& id) {
   if (!has_entry(connection, id, "exercise kept")) keep_exercise(connection, id);
 }
 
-void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc,
+bool keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc,
                     const std::string& author) {
+  if (!SeenEntries(connection).when(note_uuid).empty()) return false;
+  sql::Statement insert(connection,
+                        "INSERT OR IGNORE INTO note_seen SELECT id, ? FROM note WHERE uuid = ? RETURNING 1");
+  const bool fresh = insert.bind(utc).bind(note_uuid).step();
+  insert.run();
+  sql::Statement there(connection, "SELECT 1 FROM note_seen s JOIN note n ON n.id = s.note_id WHERE n.uuid = ?");
+  if (!there.bind(note_uuid).step()) return false;
+  if (!fresh && !lost_key(connection).empty()) return false;  // once is enough of what cannot be signed
   append_audit(connection, "note seen", note_uuid, utc, kept_actor_of(author));
+  return true;
+}
+
+SeenEntries::SeenEntries(sqlite3* connection)
+    : entries_(connection, std::string("SELECT ") + kEntryColumns +
+                               " FROM audit WHERE subject = ? AND action = 'note seen' ORDER BY position"),
+      signed_(connection) {}
+
+std::string SeenEntries::when(const std::string& note_uuid) {
+  std::string utc;
+  entries_.bind(note_uuid);
+  while (utc.empty() && entries_.step())
+    if (signed_.contains(entries_)) utc = entries_.text(5);
+  entries_.run();
+  return utc;
 }
 
 std::vector<std::string> check_kept_rows(sqlite3* connection) {

@@ -17,6 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "trainees/integrity/audit.h"
+#include "trainees/store/sqlite_handle.h"
+
 struct sqlite3;
 
 namespace trocar {
@@ -35,8 +38,22 @@ void require_person(sqlite3* connection, std::int64_t trainee, const std::string
 void keep_exercise(sqlite3* connection, const std::string& id);
 /// Only where no entry is yet.
 void keep_exercise_once(sqlite3* connection, const std::string& id);
-void keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc,
+/// Makes the row, too. @returns whether that is news: no signed entry says so yet.
+bool keep_note_seen(sqlite3* connection, const std::string& note_uuid, const std::string& utc,
                     const std::string& author = "");
+
+/// When trainees met notes, by signed entries: a row that somebody put in keeps no note from anybody. Nothing is to be
+/// written while it lives.
+class SeenEntries {
+ public:
+  explicit SeenEntries(sqlite3* connection);
+  /// UTC, "" when it was not met.
+  std::string when(const std::string& note_uuid);
+
+ private:
+  sql::Statement entries_;
+  SignedEntries signed_;
+};
 
 /// Problems between rows and trail, one line each.
 std::vector<std::string> check_kept_rows(sqlite3* connection);

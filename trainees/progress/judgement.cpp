@@ -237,8 +237,11 @@ std::vector<Judgement> judge(const Attempts& attempts, const ProgressRules& rule
   const bool harmful = add(unsafe(tried, rules));
   add(relapsed(points, rules));
   if (!in_question.empty())
-    out.push_back({Flag::kInQuestion, "certificate of " + certified_utc.substr(0, 10) + ": " + in_question,
-                   static_cast<int>(tried.size()), rules.version});
+    out.push_back(
+        {Flag::kInQuestion,
+         (certified_utc.empty() ? "a certificate is there" : "certificate of " + certified_utc.substr(0, 10)) + ": " +
+             in_question,
+         static_cast<int>(tried.size()), rules.version});
   add(stuck(tried, rules));
   add(flat(tried, rules));
   const bool unsound = add(integrity(attempts, rules));

@@ -76,7 +76,7 @@ std::string reliability_words(double reliability);
 /// All that hold, gravest first; kCertified or kLearning alone when none does. @param safety by attempt; attempts
 /// without one count as safe.
 /// @param certified_utc of a certificate that is held, "" without. @param in_question why it may not stand, "" while it
-/// does (trainees/records/certificate_standing.h).
+/// does (trainees/records/certificate_standing.h); without one that is held, of one that lies there unsigned.
 std::vector<Judgement> judge(const LearningCurve& curve, const std::vector<SafetyRecord>& safety,
                              const ProgressRules& rules, std::optional<double> reliability,
                              const std::string& certified_utc, const std::string& now_utc,

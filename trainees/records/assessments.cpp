@@ -11,6 +11,7 @@
 #include "trainees/integrity/audit.h"
 #include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/sealed_rows.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/attempt_identity.h"
 #include "trainees/records/printed_text.h"
 #include "trainees/records/rating_scales.h"
@@ -106,14 +107,41 @@ void check_cited(sqlite3* connection, std::int64_t trainee, const std::string& e
 }
 
 constexpr const char* kNotes =
-    "SELECT n.uuid, t.code, coalesce(a.uuid, ''), n.author, n.printed, n.text, n.utc, coalesce(s.utc, '') FROM note n"
-    " JOIN known_trainee t ON t.id = n.trainee_id LEFT JOIN attempt a ON a.id = n.attempt_id LEFT JOIN note_seen s ON "
-    "s.note_id = n.id"
-    " WHERE t.code = ? COLLATE NOCASE";
+    "SELECT n.uuid, t.code, coalesce(a.uuid, ''), n.author, n.printed, n.text, n.utc, n.id, coalesce(s.utc, '')"
+    " FROM note n JOIN known_trainee t ON t.id = n.trainee_id LEFT JOIN attempt a ON a.id = n.attempt_id"
+    " LEFT JOIN note_seen s ON s.note_id = n.id WHERE t.code = ? COLLATE NOCASE";
 
-Note note_of(const sql::Statement& row) {
-  return {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5), row.text(6), row.text(7)};
-}
+/// Notes by what signed entries say of them and of their being met. Nothing is to be written while it lives.
+class NoteReader {
+ public:
+  explicit NoteReader(sqlite3* connection)
+      : entries_(connection, "note"), met_(connection), lost_(!lost_key(connection).empty()) {}
+
+  /// @param row of kNotes.
+  Note of(const sql::Statement& row) {
+    return {row.text(0),
+            row.text(1),
+            row.text(2),
+            row.text(3),
+            row.text(4),
+            row.text(5),
+            row.text(6),
+            lost_ && !row.view(8).empty() ? row.text(8) : met_.when(row.text(0)),  // what nothing here could sign
+            entries_.of(row.integer(7)) > 0};
+  }
+
+  /// The first of the rows that may be shown to its trainee, who has not met it.
+  std::optional<Note> first_unseen(sql::Statement& rows) {
+    while (rows.step())
+      if (Note note = of(rows); note.is_signed && note.seen_utc.empty()) return note;
+    return std::nullopt;
+  }
+
+ private:
+  RowEntries entries_;
+  SeenEntries met_;
+  bool lost_;
+};
 
 constexpr const char* kCertificates =
     "SELECT c.uuid, t.code, exercise_id, level, rule_version, evidence, c.author, c.printed, c.utc, coalesce(r.utc, "
@@ -133,12 +161,12 @@ void refuse_second(sqlite3* connection, std::int64_t attempt, const std::string&
                    "; nothing was written");
 }
 
-/// Likewise of two desks at once. One that was revoked does not count.
+/// Likewise of two desks at once. One that was revoked does not count, nor one that nobody signed.
 void refuse_second_certificate(sqlite3* connection, std::int64_t trainee, const Certificate& wanted) {
   sql::Statement row(connection,
                      "SELECT printed, utc FROM certificate c WHERE trainee_id = ? AND exercise_id = ? AND level = ?"
-                     " AND NOT EXISTS (SELECT 1 FROM revocation r WHERE r.certificate_id = c.id AND"
-                     " row_holds('revocation', r.id))");
+                     " AND row_holds('certificate', c.id) AND NOT EXISTS (SELECT 1 FROM revocation r WHERE"
+                     " r.certificate_id = c.id AND row_holds('revocation', r.id))");
   if (!row.bind(trainee).bind(wanted.exercise_id).bind(wanted.level).step()) return;
   throw InputError("trainee \"" + wanted.trainee + "\": holds a certificate for " + wanted.exercise_id + " at level " +
                    wanted.level + " already, by " + row.text(0) + " on " + row.text(1) + "; nothing was written");
@@ -175,6 +203,7 @@ Note write_note(sqlite3* connection, const std::string& trainee, const std::stri
 Note AssessmentStore::add_note(const std::string& trainee, const std::string& attempt_uuid, const std::string& text,
                                const Author& author) {
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   const Note note = write_note(database_->connection(), trainee, attempt_uuid, text, author);
   transaction.commit();
   return note;
@@ -186,6 +215,7 @@ Note AssessmentStore::add_message(const std::string& trainee, const std::string&
                      " characters: it is read in passing. Write a note for more");
   if (text.find_first_of("\r\n") != std::string::npos) throw InputError("a message is one line");
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   const Note note = write_note(database_->connection(), trainee, "", text, author);
   append_audit(database_->connection(), kActionMessage, note.uuid, "",
                author.account_uuid.empty() ? "trocar" : author.account_uuid);
@@ -194,26 +224,26 @@ Note AssessmentStore::add_message(const std::string& trainee, const std::string&
 }
 
 std::optional<Note> AssessmentStore::unseen_message(const std::string& trainee) const {
-  sql::Statement row(database_->connection(),
-                     std::string(kNotes) +
-                         " AND s.utc IS NULL AND EXISTS (SELECT 1 FROM audit u"
-                         " WHERE u.subject = n.uuid AND u.action = ?) ORDER BY n.uuid LIMIT 1");
-  if (!row.bind(trainee).bind(kActionMessage).step()) return std::nullopt;
-  return note_of(row);
+  sql::Statement row(database_->connection(), std::string(kNotes) +
+                                                  " AND EXISTS (SELECT 1 FROM audit u"
+                                                  " WHERE u.subject = n.uuid AND u.action = ?) ORDER BY n.uuid");
+  row.bind(trainee).bind(kActionMessage);
+  return NoteReader(database_->connection()).first_unseen(row);
 }
 
 std::vector<Note> AssessmentStore::notes_of(const std::string& trainee) const {
   std::vector<Note> notes;
   sql::Statement rows(database_->connection(), std::string(kNotes) + " ORDER BY n.uuid DESC");
   rows.bind(trainee);
-  while (rows.step()) notes.push_back(note_of(rows));
+  NoteReader reader(database_->connection());
+  while (rows.step()) notes.push_back(reader.of(rows));
   return notes;
 }
 
 std::optional<Note> AssessmentStore::newest_unseen(const std::string& trainee) const {
-  sql::Statement row(database_->connection(), std::string(kNotes) + " AND s.utc IS NULL ORDER BY n.uuid DESC LIMIT 1");
-  if (!row.bind(trainee).step()) return std::nullopt;
-  return note_of(row);
+  sql::Statement rows(database_->connection(), std::string(kNotes) + " ORDER BY n.uuid DESC");
+  rows.bind(trainee);
+  return NoteReader(database_->connection()).first_unseen(rows);
 }
 
 void AssessmentStore::mark_seen(const std::string& note_uuid) {
@@ -223,13 +253,7 @@ void AssessmentStore::mark_seen(const std::string& note_uuid) {
     sql::Statement known(connection, "SELECT 1 FROM note WHERE uuid = ?");
     if (!known.bind(note_uuid).step()) throw InputError("note " + note_uuid + ": not in this database");
   }
-  const std::string utc = utc_now();
-  sql::Statement insert(connection,
-                        "INSERT OR IGNORE INTO note_seen SELECT id, ? FROM note WHERE uuid = ? RETURNING 1");
-  if (!insert.bind(utc).bind(note_uuid).step()) return;  // met before
-  insert.run();
-  keep_note_seen(connection, note_uuid, utc);
-  transaction.commit();
+  if (keep_note_seen(connection, note_uuid, utc_now())) transaction.commit();
 }
 
 void AssessmentStore::add_rating(const std::string& attempt_uuid, const std::string& scale, const std::string& item,
@@ -239,6 +263,7 @@ void AssessmentStore::add_rating(const std::string& attempt_uuid, const std::str
   check_printed("author", author.printed);
   if (!std::isfinite(value)) throw InputError("rating " + scale + ", " + item + ": is not a number");
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   insert_rating(database_->connection(), attempt_uuid,
                 {"", author.account_uuid, author.printed, scale, item, utc_now(), value});
   transaction.commit();
@@ -252,6 +277,7 @@ void AssessmentStore::rate(const std::string& attempt_uuid, const std::string& s
   for (const auto& [item, value] : values) check_rating(scale, item, value);
   const std::string now = utc_now();
   AnchoredTransaction transaction(*database_);
+  require_key(*database_);
   for (const RatingItem& item : scale.items) {
     const auto value = values.find(item.name);
     if (value == values.end()) continue;

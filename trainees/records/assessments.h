@@ -23,6 +23,7 @@ struct Author {
 struct Note {
   std::string uuid, trainee, attempt_uuid, author, printed, text, utc;
   std::string seen_utc = {};  ///< "" until the trainee met it
+  bool is_signed = true;      ///< as a signed entry says; of a stored one
 };
 
 struct Rating {

@@ -375,7 +375,8 @@ std::vector<std::string> AttemptStore::check_recordings() const {
   sql::Statement rows(
       database_->connection(),
       "SELECT uuid, recording_path, recording_sha256, EXISTS (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id"
-      " AND e.kind = 'training') FROM attempt a WHERE status <> 'running' AND recording_sha256 <> ''"
+      " AND e.kind = 'training' AND row_holds('erasure', e.id)) FROM attempt a WHERE status <> 'running'"
+      " AND recording_sha256 <> ''"
       " AND id NOT IN (SELECT attempt_id FROM replica) ORDER BY id");  // other stations keep their recordings
   while (rows.step()) {
     const fs::path file = recording_here(database_->file(), rows.text(1), rows.text(0));

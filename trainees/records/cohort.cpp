@@ -60,8 +60,8 @@ std::vector<CohortRow> cohort(Database& database, const std::string& trainee, bo
 }
 
 int people_erased(Database& database) {
-  return static_cast<int>(
-      sql::query_integer(database.connection(), "SELECT count(*) FROM erasure WHERE kind = 'training'"));
+  return static_cast<int>(sql::query_integer(
+      database.connection(), "SELECT count(*) FROM erasure WHERE kind = 'training' AND row_holds('erasure', id)"));
 }
 
 }  // namespace trocar

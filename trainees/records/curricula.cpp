@@ -75,6 +75,7 @@ void change_group(Database& database, const std::vector<std::string>& trainees, 
                   const char* sql, const char* action, const Author& author) {
   sqlite3* connection = database.connection();
   AnchoredTransaction transaction(database);
+  require_key(database);
   bool changed = false;
   for (const std::string& trainee : trainees) {
     const TraineeRow row = trainee_row(connection, trainee);

@@ -162,6 +162,66 @@ TEST_F(SealedRows, AForgedEndingKeepsTheRealOneNotOut) {
     EXPECT_NE(problems_of(database).find(std::string("records: ") + table + " 01a22e40-"), std::string::npos) << table;
 }
 
+/// Nobody is told to erase what stands by right, and nothing is excused by an erasure that nobody signed.
+TEST_F(SealedRows, AForgedErasureAsksNobodyToErase) {
+  EXPECT_EQ(run_outside(file_,
+                        "INSERT INTO erasure (uuid, trainee_id, kind, rule, author, utc) SELECT"
+                        " '01a22e40-0000-7000-8000-000000000104', trainee_id, 'training', 'x', '',"
+                        " '2026-11-30T20:00:00.000Z' FROM person WHERE code = 'T-1'"),
+            "");
+  const std::string problems = problems_of(Database(file_));
+  EXPECT_EQ(problems,
+            "records: erasure 01a22e40-0000-7000-8000-000000000104 has no entry in the audit trail: it came in by"
+            " another way\n");
+  EXPECT_NE(after("UPDATE attempt SET board = 99 WHERE uuid = '" + attempts_[0] + "'")
+                .find("attempt " + attempts_[0] + " was changed after it was finished"),
+            std::string::npos);
+}
+
+TEST_F(SealedRows, AForgedCertificateKeepsTheRealOneNotOut) {
+  EXPECT_EQ(run_outside(file_,
+                        "INSERT INTO certificate (uuid, trainee_id, exercise_id, level, rule_version, evidence, author,"
+                        " printed, utc) SELECT '01a22e40-0000-7000-8000-000000000105', trainee_id, 'surface-touch',"
+                        " 'L1', '1', '{}', '', 'M', '2026-11-30T20:00:00.000Z' FROM person WHERE code = 'T-2'"),
+            "");
+  Database database(file_);
+  AssessmentStore assessments(database);
+  const auto certify = [&] { assessments.certify("T-2", "surface-touch", "L1", "1", "{}", kAuthor); };
+  EXPECT_EQ(message_of<InputError>(certify), "");
+  EXPECT_NE(message_of<InputError>(certify).find("holds a certificate"), std::string::npos);
+  EXPECT_EQ(assessments.certificates_of("T-2").size(), 2U);
+}
+
+TEST_F(SealedRows, AForgedNoteIsShownToNoTraineeAndAForgedMeetingHidesNone) {
+  const std::string forged = "ffffffff-0000-7000-8000-000000000106";
+  Database database(file_);
+  AssessmentStore assessments(database);
+  const std::string message = assessments.add_message("T-1", "Come over, please.", kAuthor).uuid;
+  EXPECT_EQ(run_outside(
+                file_, "INSERT INTO note (uuid, trainee_id, author, printed, text, utc) SELECT '" + forged +
+                           "', trainee_id, '', 'Ida Adler', 'Go home.', '2026-11-30T20:00:00.000Z' FROM person WHERE"
+                           " code = 'T-1'; INSERT INTO note_seen SELECT id, '2026-11-30T20:00:00.000Z' FROM note WHERE"
+                           " uuid IN ('" +
+                           note_ + "', '" + message + "'); INSERT INTO audit SELECT position + 1, utc, '', 'message" +
+                           " sent', '" + forged + "', '', row_hash, 'x', '' FROM audit ORDER BY position DESC LIMIT 1"),
+            "");
+  for (const Note& note : assessments.notes_of("T-1")) {
+    EXPECT_EQ(note.is_signed, note.uuid != forged);
+    EXPECT_EQ(note.seen_utc, "");
+  }
+  ASSERT_TRUE(assessments.unseen_message("T-1"));
+  EXPECT_EQ(assessments.unseen_message("T-1")->uuid, message);
+  EXPECT_EQ(run_without_triggers(file_, "DELETE FROM audit WHERE position = (SELECT max(position) FROM audit)"), "");
+  for (const std::string& uuid : {message, note_}) {
+    ASSERT_TRUE(assessments.newest_unseen("T-1"));
+    EXPECT_EQ(assessments.newest_unseen("T-1")->uuid, uuid);
+    assessments.mark_seen(uuid);
+  }
+  EXPECT_FALSE(assessments.newest_unseen("T-1"));
+  EXPECT_FALSE(assessments.unseen_message("T-1"));
+  EXPECT_NE(problems_of(database).find("note " + note_ + " was met on "), std::string::npos) << "it is still told";
+}
+
 /// Schema 5 makes their tables anew.
 TEST_F(SealedRows, ARecordOfSchemaFourKeepsItsEndings) {
   const fs::path old = folder_ / "old.db";

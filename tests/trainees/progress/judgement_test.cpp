@@ -191,6 +191,9 @@ TEST(Judgements, SayThatACertificateIsInQuestionAndWhy) {
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].flag, Flag::kInQuestion);
   EXPECT_EQ(found[0].evidence, "certificate of 2026-05-25: the attempt was decided not passed");
+  const auto unsigned_one = judge(attempts(kShown), {}, 0.9, "", kNow, "it is not signed");
+  EXPECT_EQ(flags(unsigned_one), "in question,ready") << "it keeps no other from being given";
+  EXPECT_EQ(unsigned_one[0].evidence, "a certificate is there: it is not signed");
 }
 
 TEST(Flags, HaveNamesThatReadBack) {

@@ -86,6 +86,8 @@ TEST_F(SigningOnDisk, WithoutTheStationsKeyNothingIsTakenThatCountsOnlySigned) {
   const Author author{"0192-account", "Ida Adler"};
   Database d(file);
   for (const char* code : {"T-1", "T-2", "T-3"}) TraineeStore(d).ensure_trainee(code);
+  const std::string attempt = store_attempt(d, sample_start("T-2"), sample_result()).uuid;
+  CurriculumStore(d).join("T-1", "autumn", author);
   AccountStore(d).add("i.adler", "Ida Adler", Role::kInstructor, "", "correct horse", "");
   AccountStore(d).add("second", "Second", Role::kInstructor, "", "correct horse", "");
   ProgrammeStore programmes(d);
@@ -110,6 +112,15 @@ TEST_F(SigningOnDisk, WithoutTheStationsKeyNothingIsTakenThatCountsOnlySigned) {
          CurriculumStore(d).add_benchmark(
              {"", "surface-touch", "L1", "time_s", "six people", "median", "", "", 30, 90, 6}, author);
        }},
+      {"note", [&] { AssessmentStore(d).add_note("T-2", attempt, "Slower.", author); }},
+      {"message", [&] { AssessmentStore(d).add_message("T-2", "Slower.", author); }},
+      {"rating", [&] { AssessmentStore(d).add_rating(attempt, "GOALS", "efficiency", 3, author); }},
+      {"rated sheet",
+       [&] {
+         AssessmentStore(d).rate(attempt, "GOALS", {{"autonomy", 4}}, author);
+       }},
+      {"join", [&] { CurriculumStore(d).join("T-2", "autumn", author); }},
+      {"leave", [&] { CurriculumStore(d).leave("T-1", "autumn", author); }},
       {"erasure", [&] { erase_trainee(d, "T-3", ErasureKind::kIdentity, "request of the person", author); }}};
   const std::string before = d.head();
   std::filesystem::rename(key_path(file), away);
@@ -128,6 +139,27 @@ TEST_F(SigningOnDisk, WithoutTheStationsKeyNothingIsTakenThatCountsOnlySigned) {
   EXPECT_FALSE(StandingStore(d).of("T-1").active);
   EXPECT_TRUE(AccountStore(d).verify("i.adler", "another horse"));
   EXPECT_EQ(problems_of(d), "");
+}
+
+/// A trainee who meets a note then is not asked to meet it again and again, and meets it once more with the key.
+TEST_F(SigningOnDisk, WithoutTheStationsKeyANoteIsMetOnce) {
+  const std::filesystem::path file = folder_ / "t.db", away = folder_ / "away";
+  Database d(file);
+  TraineeStore(d).ensure_trainee("T-1");
+  AssessmentStore assessments(d);
+  const std::string note = assessments.add_note("T-1", "", "Slower.", {"", "Ida Adler"}).uuid;
+  std::filesystem::rename(key_path(file), away);
+  ASSERT_TRUE(assessments.newest_unseen("T-1"));
+  assessments.mark_seen(note);
+  const std::string once = d.head();
+  EXPECT_FALSE(assessments.newest_unseen("T-1"));
+  assessments.mark_seen(note);
+  EXPECT_EQ(d.head(), once);
+  std::filesystem::rename(away, key_path(file));
+  ASSERT_TRUE(assessments.newest_unseen("T-1"));
+  assessments.mark_seen(note);
+  EXPECT_FALSE(assessments.newest_unseen("T-1"));
+  EXPECT_EQ(problems_of(d).find("was met on"), std::string::npos) << problems_of(d);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::string signatures(const AttemptView& view, bool demo) {
             cell(words_of(s.meaning)) + "<td>" + date_html(s.utc) + "</td><td class=\"long\" translate=\"no\">" +
             escape_html(s.note) + "</td><td class=\"mono\">" + escape_html(s.row_hash.substr(0, 16)) +
             (s.row_hash == view.row_hash ? "" : " <span class=\"tag\">other bytes</span>") + "</td></tr>";
-  return table("Signatures", head_cells({"Signed by", "Meaning", "When", "Note", "Bound to"}), rows);
+  return stacked_table("Signatures", {"Signed by", "Meaning", "When", "Note", "Bound to"}, rows);
 }
 
 std::string no_signature_notice(const Frame& frame) {
@@ -48,7 +48,7 @@ std::string sign_form(const AttemptView& view, const Frame& frame) {
          text_field("sign-note", "note", "Note to the signature (may be empty)", kept(frame, "sign", "note"),
                     "maxlength=\"1000\"" + refused_field(frame, "sign")) +
          password_field("sign-password", frame) + why_refused(frame, "sign") + "<p><button>Sign" +
-         (frame.who.empty() ? "" : " as " + verbatim(frame.who)) +
+         (frame.who.empty() ? "" : " as " + who_html(frame)) +
          "</button></p><p class=\"dim\">Your name, the time and the meaning are bound to the bytes of this attempt "
          "(row hash " +
          escape_html(view.row_hash.substr(0, 16)) + "). It cannot be taken back.</p></form>";
@@ -70,8 +70,8 @@ std::string override_form(const AttemptView& view, const Frame& frame) {
 }
 
 bool holds(const CitedCertificate& one, const AttemptView& view) {
-  return one.certificate.revoked_utc.empty() && one.certificate.exercise_id == view.result.exercise_id &&
-         one.certificate.level == view.result.level;
+  return one.is_signed && one.certificate.revoked_utc.empty() &&
+         one.certificate.exercise_id == view.result.exercise_id && one.certificate.level == view.result.level;
 }
 
 /// Each certificate of this exercise and level, or that cites this attempt, with its date and who gave it.

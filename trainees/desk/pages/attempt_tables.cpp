@@ -140,8 +140,9 @@ std::string verdict_band(const AttemptView& view) {
   if (!view.overrides.empty()) {
     const VerdictOverride& o = view.overrides.front();
     out += "<p class=\"override\">" + shape(o.passed ? "pass" : "fail") + "<strong>" +
-           (o.passed ? "Passed" : "Not passed") + " by decision of " + verbatim(o.printed) + "</strong>, " +
-           date_html(o.utc) + ": " + verbatim(o.reason) + " <small>The score above stays as it was.</small></p>";
+           (o.passed ? "Passed" : "Not passed") + " by decision of " + printed_html(o.printed, o.author) +
+           "</strong>, " + date_html(o.utc) + ": " + verbatim(o.reason) +
+           " <small>The score above stays as it was.</small></p>";
   }
   if (const std::string soft = soft_real_time(view.result.device); has && !soft.empty())
     out += "<p class=\"override\">" + shape("integrity") + escape_html(soft) + "</p>";
@@ -223,8 +224,9 @@ std::string subscore_table(const AttemptView& view) {
   if (!caps.empty()) caps = "<p>The score is capped:</p><ul>" + caps + "</ul>";
   return section(
       "points", "Points",
-      table("Share of each part = (value - none) / (full - none), 0 to 1; points lost = 100 x weight x (1 - share)",
-            head_cells({"Part", ">Value", "Anchors", ">Share", "", ">Weight", ">Points lost"}), rows) +
+      stacked_table(
+          "Share of each part = (value - none) / (full - none), 0 to 1; points lost = 100 x weight x (1 - share)",
+          {"Part", ">Value", "Anchors", ">Share", "", ">Weight", ">Points lost"}, rows) +
           caps);
 }
 
@@ -286,7 +288,7 @@ std::string origin_facts(const AttemptView& view) {
   const AttemptResult& r = view.result;
   std::string out =
       "<dl class=\"facts wide\">" + recorded("Number here", view.number > 0 ? std::to_string(view.number) : "") +
-      recorded("Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level) +
+      recorded("Exercise", view.exercise + ", version " + r.exercise_version + ", level " + r.level) +
       recorded("Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)) + recorded("Input", r.hand) +
       (r.device.without_device() ? fact("Helped by", help_words(r.assists)) : "") + recorded("Program", view.program) +
       recorded("Organ", r.organ_name + (r.organ_synthetic ? ", synthetic" : "")) +

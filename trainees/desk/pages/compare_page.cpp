@@ -69,7 +69,8 @@ std::string head_of(const AttemptView& view, const std::string& words, bool firs
       !grade.score && !judged.decision
           ? shape("void") + "not graded"
           : shape(judged.passed ? "pass" : "fail") + (judged.passed ? "pass" : "not yet") +
-                (judged.decision ? " by decision of " + verbatim(judged.decision->printed) : "");
+                (judged.decision ? " by decision of " + printed_html(judged.decision->printed, judged.decision->author)
+                                 : "");
   return "<section class=\"card side\" aria-label=\"" + escape_html(words) + "\"><h2>" + swatch +
          "<a href=\"/attempt/" + url_part(view.result.uuid) + "\">" + escape_html(words) + "</a></h2><p><strong>" +
          score_text(grade.score) + "</strong> " + verdict + ", " + verbatim(view.result.trainee) + ", " +

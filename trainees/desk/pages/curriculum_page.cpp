@@ -43,9 +43,10 @@ std::string own_version(const CurriculumView& view, const Curriculum& curriculum
 }
 
 /// An account by its name; who has none by what was printed.
-std::string author_name(const CurriculumView& view, const std::string& author) {
+std::string author_cell(const CurriculumView& view, const std::string& author) {
   const auto at = view.authors.find(author);
-  return at != view.authors.end() && !at->second.empty() ? at->second : author.empty() ? "not recorded" : author;
+  if (at != view.authors.end() && !at->second.empty()) return verbatim_cell(at->second);
+  return author.empty() ? cell("not recorded") : "<td>" + printed_html(author, "") + "</td>";
 }
 
 std::string versions(const CurriculumView& view) {
@@ -56,8 +57,7 @@ std::string versions(const CurriculumView& view) {
         link_html("/curriculum" + query_html({{"name", c.name}, {"version", std::to_string(c.version)}}) + "#editor",
                   c.name + (own_version(view, c).empty() ? "" : ", version " + own_version(view, c))) +
         "</th>" + number_cell(std::to_string(c.version)) + "<td>" + date_html(c.utc) + "</td>" +
-        verbatim_cell(author_name(view, c.author)) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) +
-        "</td></tr>";
+        author_cell(view, c.author) + "<td class=\"mono\">" + escape_html(c.sha256.substr(0, 8)) + "</td></tr>";
   if (rows.empty())
     return section("versions", "Versions", "<p>None yet: the rules that came with the program hold.</p>");
   return section("versions", "Versions",
@@ -144,8 +144,8 @@ std::string benchmarks(const CurriculumView& view, const Frame& frame) {
   for (const Benchmark& b : view.benchmarks)
     rows += "<tr><th scope=\"row\">" + escape_html(b.exercise_id) + " " + escape_html(b.level) + "</th>" +
             cell(words_of(b.metric)) + number_cell(number_text(b.full_at)) + number_cell(number_text(b.zero_at)) +
-            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) +
-            verbatim_cell(author_name(view, b.author)) + "<td>" + day_html(b.utc) + "</td></tr>";
+            number_cell(std::to_string(b.n)) + cell(b.rule) + cell(b.source) + author_cell(view, b.author) + "<td>" +
+            day_html(b.utc) + "</td></tr>";
   const std::string listed =
       rows.empty()
           ? "<p>None yet.</p>"

@@ -24,8 +24,8 @@ std::string decisions_html(const json& list, const AttemptNames& named) {
     if (!one.is_object()) continue;
     const bool passed = one.contains("passed") && one["passed"] == true;
     out += "<p><small>" + std::string(passed ? "passed" : "not passed") + " by decision of " +
-           verbatim(text_of(one, "by")) + ", " + day_html(text_of(one, "utc")) + ", " + named(text_of(one, "attempt")) +
-           ": " + verbatim(text_of(one, "reason")) + "</small></p>";
+           printed_html(text_of(one, "by")) + ", " + day_html(text_of(one, "utc")) + ", " +
+           named(text_of(one, "attempt")) + ": " + verbatim(text_of(one, "reason")) + "</small></p>";
   }
   return out;
 }

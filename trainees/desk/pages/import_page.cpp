@@ -44,8 +44,8 @@ std::string import_table(const ImportPreview& preview, bool done) {
     remarks += "<p class=\"warning\">" + shape("integrity") + escape_html(sentence(remark)) + "</p>";
   return remarks + "<p class=\"live\"><strong>" + counts + ".</strong> " +
          (done ? "Done." : "Nothing is written yet.") + "</p>" +
-         table(done ? "What was done, refused lines first" : "What would be done, refused lines first",
-               head_cells({">Line", "What", "Code", "Name", "E-mail", "Group"}), rows);
+         stacked_table(done ? "What was done, refused lines first" : "What would be done, refused lines first",
+                       {">Line", "What", "Code", "Name", "E-mail", "Group"}, rows);
 }
 
 /// After an import: cards of those who are new.

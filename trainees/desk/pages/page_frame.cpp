@@ -61,7 +61,7 @@ std::string top(const Frame& frame) {
            escape_html(frame.token) + "\"/>" + verbatim(frame.who) + link_html("/password", "Password") +
            "<button>Sign out</button></form>";
   else if (!frame.who.empty())
-    out += "<p class=\"who\">" + verbatim(frame.who) + "</p>";
+    out += "<p class=\"who\">" + who_html(frame) + "</p>";
   out += "</header>";
   if (!frame.demo) return out;
   out +=
@@ -76,7 +76,7 @@ std::string paper_line(const Frame& frame) {
   return "<p class=\"paper\">Trocar desk: " +
          (frame.title_verbatim ? verbatim(frame.title) : escape_html(frame.title)) +
          (frame.now_utc.empty() ? "" : ". Printed from the page of " + date_html(frame.now_utc) + " UTC") +
-         (frame.who.empty() ? "" : ", " + verbatim(frame.who)) + "</p>";
+         (frame.who.empty() ? "" : ", " + who_html(frame)) + "</p>";
 }
 
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
@@ -342,8 +342,16 @@ std::string author_text(const std::string& printed, const std::string& account_u
   return printed + (demo ? " (of the demo)" : " (no account)");
 }
 
+std::string who_html(const Frame& frame) { return frame.signed_in ? verbatim(frame.who) : printed_html(frame.who); }
+
 std::string author_html(const std::string& printed, const std::string& account_uuid, bool demo) {
-  return verbatim(printed) + author_text("", account_uuid, demo);
+  return printed_html(printed, account_uuid) + author_text("", account_uuid, demo);
+}
+
+std::string printed_html(const std::string& printed, const std::optional<std::string>& account_uuid) {
+  const bool nobodys = account_uuid && account_uuid->empty();
+  const bool own = printed == "Local instructor" ? nobodys || !account_uuid : printed == "Demo" && nobodys;
+  return own ? "<span>" + escape_html(printed) + "</span>" : verbatim(printed);
 }
 
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,
@@ -383,6 +391,33 @@ std::string table(const std::string& caption, const std::string& head_html, cons
   return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + escape_html(caption) + "\"><table" +
          (classes.empty() ? "" : " class=\"" + classes + "\"") + "><caption>" + escape_html(caption) +
          "</caption><thead><tr>" + head_html + "</tr></thead><tbody>" + rows_html + "</tbody></table></div>";
+}
+
+namespace {
+/// Rows whose data cells say the column that they stand in; one over several columns says none.
+std::string labelled(const std::string& rows_html, const std::vector<std::string>& head) {
+  std::string out;
+  std::size_t column = 0, from = 0;
+  for (std::size_t at = 0; (at = rows_html.find("<t", at)) != std::string::npos; ++at) {
+    const std::string_view tag = std::string_view(rows_html).substr(at, 4);
+    if (tag == "<tr>" || tag == "<tr ") column = 0;
+    const bool data = tag == "<td>" || tag == "<td ";
+    if (!data && tag != "<th>" && tag != "<th ") continue;
+    const std::string label = column < head.size() ? head[column].substr(head[column].starts_with('>') ? 1 : 0) : "";
+    ++column;
+    const bool spans = rows_html.substr(at, rows_html.find('>', at) - at).find("colspan") != std::string::npos;
+    if (!data || spans || label.empty()) continue;
+    out += rows_html.substr(from, at + 3 - from) + " data-label=\"" + escape_html(label) + "\"";
+    from = at + 3;
+  }
+  return out + rows_html.substr(from);
+}
+}  // namespace
+
+std::string stacked_table(const std::string& caption, const std::vector<std::string>& head,
+                          const std::string& rows_html, const std::string& classes) {
+  return table(caption, head_cells(head), labelled(rows_html, head),
+               classes.empty() ? "stacked" : "stacked " + classes);
 }
 
 std::string head_cells(const std::vector<std::string>& words) {

@@ -116,6 +116,11 @@ std::string password_field(const std::string& id, const Frame& frame);
 /// "Dr Brandt"; of a word that no account stands behind: "Demo (of the demo)", "Local instructor (no account)".
 std::string author_text(const std::string& printed, const std::string& account_uuid, bool demo);
 std::string author_html(const std::string& printed, const std::string& account_uuid, bool demo);
+/// Who looks, by their name.
+std::string who_html(const Frame& frame);
+/// A name as it was printed. Those that the program gives who has no account are its own words and translated; a
+/// person's never is. @param account_uuid nothing where it is not known
+std::string printed_html(const std::string& printed, const std::optional<std::string>& account_uuid = {});
 std::string area_field(const std::string& id, const std::string& name, const std::string& label,
                        const std::string& value, int rows, const std::string& extra_html = "");
 std::string select_field(const std::string& id, const std::string& name, const std::string& label,
@@ -132,6 +137,10 @@ std::string figure(const std::string& svg_html, const std::string& caption_html)
 /// A table in a scroller of its own. @param head_html cells of the head.
 std::string table(const std::string& caption, const std::string& head_html, const std::string& rows_html,
                   const std::string& classes = "");
+/// A table whose rows become blocks on a narrow screen, where each cell says its column (data-label).
+/// @param head as of head_cells()
+std::string stacked_table(const std::string& caption, const std::vector<std::string>& head,
+                          const std::string& rows_html, const std::string& classes = "");
 std::string head_cells(const std::vector<std::string>& words);  ///< ">word" for a number's column
 std::string cell(const std::string& words);
 std::string number_cell(const std::string& words);

@@ -23,8 +23,8 @@ std::string programme_list(const ProgrammesView& view) {
   }
   return rows.empty()
              ? "<p>None yet. A programme is a sequence of steps: an exercise at a level, and what passes it.</p>"
-             : table("Programmes; the newest version holds",
-                     head_cells({"Programme", ">Steps", ">Version", "Saved", ">Assignments", ""}), rows);
+             : stacked_table("Programmes; the newest version holds",
+                             {"Programme", ">Steps", ">Version", "Saved", ">Assignments", ""}, rows);
 }
 
 std::string new_programme(const Frame& frame) {
@@ -73,21 +73,24 @@ std::string withdraw_form(const Assignment& one, const Frame& frame) {
 
 std::string assigned(const ProgrammesView& view, const Frame& frame) {
   std::string held, gone;
+  const auto by = [&](const std::string& name) {
+    return printed_html(name, frame.demo ? std::optional<std::string>("") : std::nullopt);
+  };
   for (const Assignment& one : view.assignments) {
     const std::string begin =
         "<tr><th scope=\"row\">" +
         verbatim_link("/grid" + query_html({{"programme", one.programme}, {"group", one.group}}), one.programme) +
         "</th><td>" + whom(one) + "</td><td>" +
-        (one.due.empty() ? "<span class=\"dim\">no date</span>" : day_html(one.due)) + "</td><td>" +
-        verbatim(one.printed) + ", " + day_html(one.utc) + "</td>";
+        (one.due.empty() ? "<span class=\"dim\">no date</span>" : day_html(one.due)) + "</td><td>" + by(one.printed) +
+        ", " + day_html(one.utc) + "</td>";
     if (one.withdrawn_utc.empty())
       held += begin + "<td>" + withdraw_form(one, frame) + "</td></tr>";
     else
-      gone += begin + "<td>" + verbatim(one.withdrawn_by) + ", " + day_html(one.withdrawn_utc) +
+      gone += begin + "<td>" + by(one.withdrawn_by) + ", " + day_html(one.withdrawn_utc) +
               (one.withdrawn_reason.empty() ? "" : ": " + verbatim(one.withdrawn_reason)) + "</td></tr>";
   }
   const auto listed = [](const char* caption, const char* last, const std::string& rows) {
-    return table(caption, head_cells({"Programme", "To", "Due", "Given", last}), rows);
+    return stacked_table(caption, {"Programme", "To", "Due", "Given", last}, rows);
   };
   return (held.empty() ? "<p>Nothing is assigned.</p>" : listed("Assignments that hold, newest first", "", held)) +
          (gone.empty() ? ""

@@ -8,7 +8,7 @@ namespace trocar::review {
 namespace {
 
 std::string sheet_row(const RatingSheet& sheet, const RatingScale& scale) {
-  std::string row = "<tr><th scope=\"row\" translate=\"no\">" + escape_html(sheet.rater) + "</th>";
+  std::string row = "<tr><th scope=\"row\">" + printed_html(sheet.rater) + "</th>";
   for (const RatingItem& item : scale.items) {
     const auto value = sheet.values.find(item.name);
     row += number_cell(value == sheet.values.end() ? "-" : number_text(value->second));
@@ -50,7 +50,8 @@ std::string other_ratings(const AttemptView& view) {
   for (const Rating& r : view.ratings) {
     if (r.scale == goals_scale().name) continue;
     rows += "<tr><th scope=\"row\">" + escape_html(r.scale) + "</th>" + cell(r.item) +
-            number_cell(number_text(r.value)) + verbatim_cell(r.rater) + "<td>" + date_html(r.utc) + "</td></tr>";
+            number_cell(number_text(r.value)) + "<td>" + printed_html(r.rater) + "</td><td>" + date_html(r.utc) +
+            "</td></tr>";
   }
   return rows.empty() ? "" : table("Other scales", head_cells({"Scale", "Item", ">Value", "By", "When"}), rows);
 }

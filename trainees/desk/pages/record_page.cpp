@@ -2,6 +2,7 @@
 
 #include "trainees/desk/queries/record_views.h"
 #include "trainees/files/size_text.h"
+#include "trainees/integrity/audit.h"
 #include "trainees/markup/html.h"
 
 namespace trocar::review {
@@ -154,6 +155,26 @@ std::string subject_cell(const AuditEntry& entry) {
          (entry.page.empty() ? escape_html(words) : link_html(escape_html(entry.page), words)) + "</td>";
 }
 
+/// Digests and keys are cut; of words, those about a migration are the program's, all others are names.
+std::string detail_cell(const AuditEntry& entry) {
+  constexpr std::size_t kHash = 64, kShown = 16;
+  std::string words, word;
+  bool hashed = false;
+  for (const char c : entry.detail + " ") {
+    if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'f')) {
+      word += c;
+      continue;
+    }
+    hashed = hashed || word.size() == kHash;
+    words += (word.size() == kHash ? word.substr(0, kShown) + "\xE2\x80\xA6" : word) + c;
+    word.clear();
+  }
+  words.pop_back();
+  if (entry.action == kActionMigrated) return "<td class=\"long\">" + escape_html(words) + "</td>";
+  return std::string("<td class=\"long") + (hashed ? " mono" : "") + "\" translate=\"no\">" + escape_html(words) +
+         "</td>";
+}
+
 }  // namespace
 
 std::string audit_page(const AuditView& view, Frame frame) {
@@ -164,10 +185,9 @@ std::string audit_page(const AuditView& view, Frame frame) {
             (entry.before_utc.empty()
                  ? ""
                  : " <span class=\"tag\">clock set back from " + date_html(entry.before_utc) + "</span>") +
-            "</td>" + (entry.named ? verbatim_cell(entry.who) : cell(entry.who)) + cell(entry.action) +
-            subject_cell(entry) + "<td class=\"mono\">" +
-            escape_html(entry.detail.size() > 40 ? entry.detail.substr(0, 16) + "\xE2\x80\xA6" : entry.detail) +
-            "</td></tr>";
+            (entry.is_signed ? "" : " <span class=\"tag\">not signed by the station</span>") + "</td>" +
+            (entry.named ? verbatim_cell(entry.who) : cell(entry.who)) + cell(entry.action) + subject_cell(entry) +
+            detail_cell(entry) + "</tr>";
   }
   if (rows.empty()) rows = "<tr><td colspan=\"6\">No entry matches.</td></tr>";
   return document(
@@ -178,8 +198,8 @@ std::string audit_page(const AuditView& view, Frame frame) {
           parts("/audit") +
           section("trail", plural(view.total, "entry", "entries"),
                   trail_clock_notice(view.set_back) + audit_filters(view) +
-                      table("Newest first; times are UTC",
-                            head_cells({">No.", "When", "Done by", "Action", "Of", "Detail"}), rows, "audit") +
+                      stacked_table("Newest first; times are UTC",
+                                    {">No.", "When", "Done by", "Action", "Of", "Detail"}, rows, "audit") +
                       audit_pages(view)));
 }
 

@@ -133,7 +133,7 @@ std::string person_page(const PersonView& view, Frame frame) {
   const std::string told = standing.utc.empty()
                                ? ""
                                : "<p>" + std::string(standing.active ? "Reactivated " : "Deactivated ") +
-                                     day_html(standing.utc) + " by " + verbatim(standing.printed) +
+                                     day_html(standing.utc) + " by " + printed_html(standing.printed) +
                                      (standing.reason.empty() ? "" : ": " + verbatim(standing.reason)) + ".</p>";
   return document(
       frame,

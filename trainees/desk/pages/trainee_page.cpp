@@ -120,7 +120,7 @@ std::string result_cell(const ListedAttempt& one) {
   const CurvePoint& p = *one.point;
   if (one.place == 0) return shape("void") + "ended by the device: not counted, passes in a row begin anew";
   const std::string verdict = shape(p.passed ? "pass" : "fail") + (p.passed ? "passed" : "not passed");
-  if (!p.decided_by.empty()) return verdict + " by decision of " + verbatim(p.decided_by);
+  if (!p.decided_by.empty()) return verdict + " by decision of " + printed_html(p.decided_by);
   return p.score ? verdict : shape("void") + "no score";
 }
 
@@ -230,8 +230,8 @@ std::string due_dates(const TraineeView& view) {
             (due.utc.empty() ? "no date" : day_html(due.utc)) + (due.over ? " " + badge(Flag::kRetentionDue) : "") +
             "</td>" + cell(due.why) + "</tr>";
   return rows.empty() ? "<p>Nothing is due.</p>"
-                      : table("Attempts for keeping, and steps of programmes",
-                              head_cells({"Exercise", "Level", "Due", "Why"}), rows);
+                      : stacked_table("Attempts for keeping, and steps of programmes",
+                                      {"Exercise", "Level", "Due", "Why"}, rows);
 }
 
 constexpr const char* kErased =
@@ -264,9 +264,11 @@ std::string notes_section(const std::vector<Note>& notes, const std::string& act
   out += "<ol class=\"notes\">";
   for (const Note& note : notes) {
     out += "<li><p class=\"said\">" + escape_html(note.text) + "</p><p class=\"dim\">" +
-           verbatim(note.printed.empty() ? note.author : note.printed) + ", " + date_html(note.utc);
+           (note.printed.empty() ? verbatim(note.author) : printed_html(note.printed, note.author)) + ", " +
+           date_html(note.utc);
     if (!note.attempt_uuid.empty()) out += ", on " + link_html("/attempt/" + url_part(note.attempt_uuid), "an attempt");
-    out += (note.seen_utc.empty() ? ", not met yet" : ", met " + date_html(note.seen_utc)) + "</p></li>";
+    out += (note.seen_utc.empty() ? ", not met yet" : ", met " + date_html(note.seen_utc)) + "</p>" +
+           (note.is_signed ? "" : "<p class=\"warning\">" + shape("integrity") + kUnsignedNote + "</p>") + "</li>";
   }
   return section("notes", "Notes", out + "</ol>");
 }

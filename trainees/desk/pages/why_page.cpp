@@ -50,10 +50,9 @@ std::string loss_table(const LossLine& line) {
             number_cell(fixed_text(lost.points_lost, 1)) + bar(lost.points_lost, most) +
             number_cell(part_value_text(lost.part, lost.part.raw)) + "<td><small>" +
             escape_html(anchors_text(lost.part)) + "</small></td>" + gate_cell(lost, l.graded) + "</tr>";
-  return summary(l) + (rows.empty()
-                           ? ""
-                           : table("Mean points lost of each part, most first",
-                                   head_cells({"Part", ">Points lost", "", ">Median", "Anchors", "Gate"}), rows));
+  return summary(l) + (rows.empty() ? ""
+                                    : stacked_table("Mean points lost of each part, most first",
+                                                    {"Part", ">Points lost", "", ">Median", "Anchors", "Gate"}, rows));
 }
 
 std::vector<Choice> metric_choices(const std::vector<std::string>& names) {

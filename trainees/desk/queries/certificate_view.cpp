@@ -22,12 +22,15 @@ std::vector<CurveDecision> decisions_of_curve(Database& database, const AttemptR
 }
 
 void add_certificates(AttemptView& view, Database& database) {
+  sql::Statement holds(database.connection(), "SELECT row_holds('certificate', id) FROM certificate WHERE uuid = ?");
   for (Certificate& certificate : AssessmentStore(database).certificates_of(view.result.trainee)) {
     CertificateStanding standing = standing_of(database, certificate);
     const bool of_this = standing.cited == view.result.uuid;
     const bool same = certificate.exercise_id == view.result.exercise_id && certificate.level == view.result.level;
-    if (of_this || same)
-      view.certificates.push_back({std::move(certificate), of_this, std::move(standing.in_question)});
+    if (!of_this && !same) continue;
+    const bool is_signed = holds.bind(certificate.uuid).step() && holds.integer(0) != 0;
+    holds.run();
+    view.certificates.push_back({std::move(certificate), of_this, std::move(standing.in_question), is_signed});
   }
 }
 

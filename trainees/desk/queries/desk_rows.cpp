@@ -1,6 +1,7 @@
 #include "trainees/desk/queries/desk_rows.h"
 
 #include "scenarios/scoring/attempt_result.h"
+#include "trainees/integrity/sealed_rows.h"
 #include "trainees/records/certificate_standing.h"
 #include "trainees/store/sqlite_handle.h"
 
@@ -53,21 +54,25 @@ std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database) 
   const sql::ReadSnapshot snapshot(database.connection());
   const std::set<std::string> stand = certificates_beyond_doubt(database);
   // Without the evidence, which is most of them.
-  sql::Statement rows(database.connection(),
-                      "SELECT c.trainee_id, c.exercise_id, c.level, c.utc, c.uuid FROM certificate c JOIN trainee t ON"
-                      " t.id = c.trainee_id LEFT JOIN revocation r ON r.certificate_id = c.id AND"
-                      " row_holds('revocation', r.id) WHERE coalesce(r.utc, '') = '' ORDER BY c.uuid DESC");
+  sql::Statement rows(
+      database.connection(),
+      "SELECT c.trainee_id, c.exercise_id, c.level, c.utc, c.uuid, c.id FROM certificate c JOIN trainee t ON"
+      " t.id = c.trainee_id LEFT JOIN revocation r ON r.certificate_id = c.id AND"
+      " row_holds('revocation', r.id) WHERE coalesce(r.utc, '') = '' ORDER BY c.uuid DESC");
   sql::Statement evidence(database.connection(), "SELECT evidence FROM certificate WHERE uuid = ?");
+  RowEntries entries(database.connection(), "certificate");
   std::map<CertifiedSkill, HeldCertificate> out;
   while (rows.step()) {
-    const auto [held, first] =
-        out.try_emplace({rows.integer(0), rows.text(1), rows.text(2)}, HeldCertificate{rows.text(3)});
+    HeldCertificate& held = out[{rows.integer(0), rows.text(1), rows.text(2)}];
     Certificate one;
     one.uuid = rows.text(4);
-    if (!first || stand.contains(one.uuid) || !evidence.bind(one.uuid).step()) continue;
+    const bool stands = stand.contains(one.uuid), is_signed = stands || entries.of(rows.integer(5)) > 0;
+    if (!held.utc.empty() || (!is_signed && !held.in_question.empty())) continue;
+    held = {is_signed ? rows.text(3) : "", ""};
+    if (stands || !evidence.bind(one.uuid).step()) continue;
     one.evidence = evidence.text(0);
     evidence.run();
-    held->second.in_question = standing_of(database, one).in_question;
+    held.in_question = standing_of(database, one).in_question;
   }
   return out;
 }

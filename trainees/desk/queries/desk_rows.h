@@ -30,10 +30,10 @@ struct CertifiedSkill {
   auto operator<=>(const CertifiedSkill&) const = default;
 };
 struct HeldCertificate {
-  std::string utc = {};
+  std::string utc = {};          ///< "": none is held, but one lies there that nobody signed
   std::string in_question = {};  ///< why it may not stand (trainees/records/certificate_standing.h)
 };
-/// Newest certificate of each that was not withdrawn.
+/// Newest signed certificate of each that was not withdrawn; where there is none, that one lies there unsigned.
 std::map<CertifiedSkill, HeldCertificate> certificates_held(Database& database);
 
 /// Whose training data were erased: of them nothing is judged, drawn or counted.

@@ -185,13 +185,16 @@ AuditView audit_view(const Database& database, const AuditQuestion& asked) {
   }
   const std::int64_t pages = std::max<std::int64_t>(1, (out.total + kAuditOnPage - 1) / kAuditOnPage);
   out.asked.page = static_cast<int>(std::clamp<std::int64_t>(asked.page, 1, pages));
-  sql::Statement rows(connection, "SELECT u.position, u.utc, u.actor, u.action, u.subject, u.detail, " +
-                                      std::string(kActorName) + " FROM audit u" + kMatching +
-                                      " ORDER BY u.position DESC LIMIT ?3 OFFSET ?4");
+  constexpr int kName = 9;  // after those of kEntryColumns
+  sql::Statement rows(connection, std::string("SELECT ") + kEntryColumns + ", " + kActorName + " FROM audit u" +
+                                      kMatching + " ORDER BY u.position DESC LIMIT ?3 OFFSET ?4");
   rows.bind(asked.person).bind(asked.action).bind(kAuditOnPage).bind((out.asked.page - 1) * kAuditOnPage);
-  while (rows.step())
-    out.entries.push_back({rows.integer(0), rows.text(1), name_of_actor(rows.text(2), rows.text(6)), rows.text(3),
-                           rows.text(4), rows.text(5), !rows.text(6).empty()});
+  SignedEntries entries(connection);
+  while (rows.step()) {
+    out.entries.push_back({rows.integer(0), rows.text(1), name_of_actor(rows.text(2), rows.text(kName)), rows.text(3),
+                           rows.text(4), rows.text(5), !rows.text(kName).empty()});
+    out.entries.back().is_signed = entries.contains(rows);
+  }
   add_subjects(connection, out.entries);
   const std::vector<ClockSetBack> steps = clock_set_back(connection);
   out.set_back = steps.size();

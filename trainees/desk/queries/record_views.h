@@ -50,6 +50,7 @@ struct AuditEntry {
   std::string before_utc = {};  ///< where the clock was set back before it: what it had said
   std::string words = {};  ///< what the subject is, for people: "attempt no. 12 of T-7"; "" where it says so itself
   std::string page = {};   ///< path of the page about it, "" where there is none
+  bool is_signed = true;   ///< with the station's key, or older than the first
 };
 
 inline constexpr int kAuditOnPage = 100;

@@ -187,12 +187,17 @@ struct CitedCertificate {
   Certificate certificate = {};
   bool cites = false;            ///< this very attempt is its evidence
   std::string in_question = {};  ///< why it may not stand
+  bool is_signed = true;         ///< else it keeps no other from being given
 };
 
 /// What page and paper say of one that is not as it was finished.
 inline constexpr const char* kChangedAttempt =
     "This attempt is not as it was when it was finished, or its entry is not signed with the station's key: "
     "what stands here proves nothing. trocar db check names it.";
+
+/// And of a note that no signed entry holds.
+inline constexpr const char* kUnsignedNote =
+    "Not signed with the station's key, or changed since: whoever may write the file can have put it in.";
 
 struct AttemptView {
   AttemptResult result = {};

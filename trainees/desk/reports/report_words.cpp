@@ -68,6 +68,7 @@ void note_blocks(std::vector<printed::Block>& to, const std::vector<Note>& notes
         (note.printed.empty() ? "by an instructor" : note.printed) + ", " + moment_text(note.utc) +
             (note.seen_utc.empty() ? ", not met by the trainee yet" : ", met " + moment_text(note.seen_utc)),
         printed::Tone::kQuiet});
+    if (!note.is_signed) to.emplace_back(printed::Paragraph{kUnsignedNote, printed::Tone::kBad});
   }
 }
 

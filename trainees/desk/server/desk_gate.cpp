@@ -62,6 +62,17 @@ void DeskGate::say(const std::string& line) const {
 
 std::string DeskGate::cookie_name() const { return options_.secure ? "__Host-" + options_.cookie : options_.cookie; }
 
+/// Of the visitor's cookie, "" without one.
+std::string DeskGate::number_of(const RequestHead& head) const {
+  const std::string number = cookie_value(head.header("cookie"), cookie_name());
+  return DeskSessions::is_number(number) ? number : "";
+}
+
+std::string DeskGate::turn(const RequestHead& head, const std::string& address) const {
+  const std::string account = sessions_.account(number_of(head));
+  return account.empty() ? "address " + address : "account " + account;
+}
+
 void DeskGate::set_cookie(RequestContext& context, const std::string& number) const {
   context.number = number;
   context.cookie = cookie_name() + "=" + number + "; Path=/; HttpOnly; SameSite=Strict" +
@@ -274,8 +285,7 @@ Answer DeskGate::answer(const IncomingRequest& incoming, Desk& desk) {
   RequestContext context{incoming, desk, options_.clock()};
   Answer out;
   try {
-    context.number = cookie_value(incoming.head.header("cookie"), cookie_name());
-    if (!DeskSessions::is_number(context.number)) context.number.clear();
+    context.number = number_of(incoming.head);
     out = answered(context);
   } catch (const EnvironmentError& error) {
     say(error.what());

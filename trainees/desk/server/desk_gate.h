@@ -56,6 +56,8 @@ class DeskGate {
 
   /// Never throws but for what no answer can be made of (no memory).
   Answer answer(const IncomingRequest& incoming, Desk& desk);
+  /// Whose a request is while requests wait: the account's that is signed in, else the address's.
+  std::string turn(const RequestHead& head, const std::string& address) const;
   /// Ones that every answer has, and those of this one. Values are safe to send.
   std::vector<std::pair<std::string, std::string>> headers(const Answer& answer) const;
 
@@ -72,6 +74,7 @@ class DeskGate {
   Answer page(RequestContext& context);
   Answer sign_in(RequestContext& context);
   Answer try_sign_in(RequestContext& context, const std::string& login, const std::string& next);
+  std::string why_nobody_signs_in(RequestContext& context) const;
   struct Try;
   /// @param from what its wrong tries are counted by, besides the login: address or session.
   Try try_password(RequestContext& context, const std::string& login, const std::string& password, SignInLimit& limit,
@@ -84,6 +87,7 @@ class DeskGate {
                         const std::string& next);
   void set_cookie(RequestContext& context, const std::string& number) const;
   std::string cookie_name() const;
+  std::string number_of(const RequestHead& head) const;
   void say(const std::string& line) const;
 
   GateOptions options_;

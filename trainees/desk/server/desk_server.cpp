@@ -20,7 +20,6 @@
 namespace trocar::review {
 namespace {
 
-constexpr int kServed = 32;  ///< at once, of those whose requests are whole
 /// A class that signs in together waits its turn, besides the others. More than that many are told to try again.
 constexpr int kSignedInAtOnce = 2, kMostSigningIn = 32;
 
@@ -68,17 +67,17 @@ struct DeskServer::Impl : httplib::Server {
   bool process_and_close_socket(socket_t socket) override;
   void open();
   void close();
-  void serve(const std::shared_ptr<Connection>& connection, Received received);
-  Answer answer_to(const Connection& connection, Received received, bool& head_only);
+  void take(const std::shared_ptr<Connection>& connection, Received received);
+  void serve(const std::shared_ptr<Connection>& connection, Received received, Desk* desk);
+  Answer answer_to(const Connection& connection, Received received, Desk* desk, bool& head_only);
 
   DeskServerOptions options;
   std::unique_ptr<TlsIdentity> tls;
   std::unique_ptr<PageWorkers> workers;
   std::unique_ptr<DeskGate> gate;
   std::thread listener;
-  std::unique_ptr<httplib::ThreadPool> servers;  ///< pages are made and answers composed: they never wait for a visitor
-  std::unique_ptr<httplib::ThreadPool> doors;    ///< the same for those who sign in
-  std::atomic<int> signing_in{0};                ///< served or waiting for `doors`
+  std::unique_ptr<httplib::ThreadPool> doors;  ///< those who sign in wait here before they wait for a page
+  std::atomic<int> signing_in{0};              ///< served or waiting for `doors`
   std::unique_ptr<WaitingRoom> room;
   int bound_port = 0;
   bool listened = false;  ///< the library closes the port itself, once it has listened
@@ -91,10 +90,7 @@ DeskServer::Impl::Impl(DeskServerOptions given) : options(std::move(given)) {
   workers = std::make_unique<PageWorkers>(options.page_threads, options.open, options.sources, options.demo);
   if (options.lan) {
     bool somebody = false;
-    workers->run([&](Desk& desk) {
-      somebody = somebody_can_sign_in(desk.database);
-      return Answer{};
-    });
+    workers->run("", [&](Desk* desk) { somebody = somebody_can_sign_in(desk->database); });
     if (!somebody)
       throw InputError(
           "on the network everybody signs in, and nobody has an account yet: make one first with"
@@ -143,26 +139,32 @@ void DeskServer::Impl::bind() {
 }
 
 void DeskServer::Impl::open() {
-  servers = std::make_unique<httplib::ThreadPool>(kServed);
   doors = std::make_unique<httplib::ThreadPool>(kSignedInAtOnce);
   RoomLimits limits;
   limits.request = options.limits;
-  room = std::make_unique<WaitingRoom>(limits, [this](std::shared_ptr<Connection> connection, Received received) {
-    const bool door = signs_in(received) && signing_in < kMostSigningIn;
-    if (door) ++signing_in;
-    (door ? doors : servers)
-        ->enqueue([this, door, connection = std::move(connection),
-                   request = std::make_shared<Received>(std::move(received))]() mutable {
-          serve(connection, std::move(*request));
-          if (door) --signing_in;
-        });
+  room = std::make_unique<WaitingRoom>(
+      limits, [this](const auto& connection, Received received) { take(connection, std::move(received)); });
+}
+
+void DeskServer::Impl::take(const std::shared_ptr<Connection>& connection, Received received) {
+  const auto* request = std::get_if<ReceivedRequest>(&received);
+  const std::string turn = gate->turn(request ? request->head : RequestHead{}, connection->remote_address());
+  const bool door = signs_in(received) && signing_in < kMostSigningIn;
+  PageWorkers::Job job = [this, connection, whole = std::make_shared<Received>(std::move(received))](Desk* desk) {
+    serve(connection, std::move(*whole), desk);
+  };
+  if (!door) return workers->give(turn, std::move(job));
+  ++signing_in;
+  doors->enqueue([this, turn, job = std::move(job)] {
+    workers->run(turn, job);
+    --signing_in;
   });
 }
 
 /// Those who serve first: they still give answers to the room.
 void DeskServer::Impl::close() {
-  servers->shutdown();
   doors->shutdown();
+  workers->finish();
   room.reset();
 }
 
@@ -171,11 +173,12 @@ bool DeskServer::Impl::process_and_close_socket(socket_t socket) {
   return true;
 }
 
-void DeskServer::Impl::serve(const std::shared_ptr<Connection>& connection, Received received) {
+/// @param desk nullptr: too many wait.
+void DeskServer::Impl::serve(const std::shared_ptr<Connection>& connection, Received received, Desk* desk) {
   std::string bytes;
   try {
     bool head_only = false;
-    const Answer answer = answer_to(*connection, std::move(received), head_only);
+    const Answer answer = answer_to(*connection, std::move(received), desk, head_only);
     if (answer.response.status != 0) bytes = answer_bytes(answer.response, gate->headers(answer), head_only);
   } catch (const std::exception& error) {
     if (options.log) options.log(error.what());
@@ -183,24 +186,21 @@ void DeskServer::Impl::serve(const std::shared_ptr<Connection>& connection, Rece
   room->send(connection, std::move(bytes));
 }
 
-Answer DeskServer::Impl::answer_to(const Connection& connection, Received received, bool& head_only) {
+Answer DeskServer::Impl::answer_to(const Connection& connection, Received received, Desk* desk, bool& head_only) {
   if (const auto* refusal = std::get_if<Refusal>(&received))
     return {.response = refusal->status == 0 ? Response{.status = 0} : error_page(refusal->status, refusal->why)};
   auto& request = std::get<ReceivedRequest>(received);
   head_only = request.head.method == "HEAD";
+  if (desk == nullptr) return {.response = error_page(503), .retry_after_s = 2};
   const IncomingRequest incoming{.head = std::move(request.head),
                                  .body = std::move(request.body),
                                  .address = connection.remote_address(),
                                  .local_address = connection.local_address(),
                                  .same_user = [&] { return connection.same_user(); }};
-  const auto make = [&](Desk& desk) {
-    const auto begin = std::chrono::steady_clock::now();
-    Answer made = gate->answer(incoming, desk);
-    made.made_in_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    return made;
-  };
-  if (auto answer = workers->run(make)) return std::move(*answer);
-  return {.response = error_page(503), .retry_after_s = 2};
+  const auto begin = std::chrono::steady_clock::now();
+  Answer made = gate->answer(incoming, *desk);
+  made.made_in_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return made;
 }
 
 DeskServer::DeskServer(DeskServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}

@@ -86,6 +86,14 @@ std::optional<Session> DeskSessions::find(const std::string& number, DeskTime no
   return at->second.session;
 }
 
+std::string DeskSessions::account(const std::string& number) const {
+  if (!is_number(number)) return "";
+  const std::string key = digest(session_key_, number);
+  const std::scoped_lock lock(mutex_);
+  const auto at = sessions_.find(key);
+  return at == sessions_.end() ? "" : at->second.session.account;
+}
+
 void DeskSessions::end(const std::string& number) {
   const std::string key = digest(session_key_, number);
   const std::scoped_lock lock(mutex_);

@@ -43,6 +43,8 @@ class DeskSessions {
   std::string begin(const Session& session, DeskTime now);
   /// The session, which counts as used now.
   std::optional<Session> find(const std::string& number, DeskTime now);
+  /// Its account without using it, "" where there is none.
+  std::string account(const std::string& number) const;
   void end(const std::string& number);
   void mark_recorded(const std::string& number);
   std::size_t count() const;

@@ -5,6 +5,7 @@
 #include "trainees/desk/server/desk_accounts.h"
 #include "trainees/desk/server/request_context.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/records/password_rules.h"
 #include "trainees/store/disk_full.h"
 
@@ -69,7 +70,23 @@ Answer DeskGate::ask_to_sign_in(RequestContext& context, int status, const std::
         "Nobody has an account yet, and this desk is open without one only to the person who started it, on that "
         "machine. "
         "An account is made there by: trocar review account add LOGIN --role administrator";
+  if (form.message.empty()) form.message = why_nobody_signs_in(context);
   return {.response = sign_in_page(form)};
+}
+
+/// No password can be judged while another key lies in place of the record's: no account's row holds under it. Where
+/// there is none, people sign in to read. @returns "": they can.
+std::string DeskGate::why_nobody_signs_in(RequestContext& context) const {
+  const std::string nobody = "Nobody can sign in to this record now: ";
+  sqlite3* connection = context.desk.database.connection();
+  try {
+    if (!station_key(connection)) return "";
+  } catch (const std::runtime_error& error) {
+    say(error.what());
+    return nobody + "its key cannot be read: the terminal of the desk says why.";
+  }
+  const std::string lost = lost_key(connection);
+  return lost.empty() ? "" : nobody + lost + ".";
 }
 
 Answer DeskGate::sign_in(RequestContext& context) {
@@ -90,23 +107,24 @@ Answer DeskGate::sign_in(RequestContext& context) {
 struct DeskGate::Try {
   std::optional<Account> account = {};  ///< it was right
   std::string stamp = {};               ///< of the sign-in, then
-  int wait_s = 0;                       ///< it was not looked at: try again after so long
   std::string why = {};                 ///< it was not looked at
+  int wait_s = 0;                       ///< then: try again after so long, 0: not before something is done
 };
 
 DeskGate::Try DeskGate::try_password(RequestContext& context, const std::string& login, const std::string& password,
                                      SignInLimit& limit, const std::string& from) {
+  if (const std::string why = why_nobody_signs_in(context); !why.empty()) return {.why = why};
   const std::string who = printable(login) + " from " + context.incoming.address;
   const Counted counted(verifying_);
-  if (counted.before() >= kVerifyingAtOnce) return {.wait_s = 2, .why = "Many sign in at this moment. Try again."};
-  if (const int seconds = limit.begin(login, from, context.now); seconds > 0) {
-    say("sign-in held back: " + who);
-    return {.wait_s = seconds, .why = waiting_words(seconds)};
-  }
+  if (counted.before() >= kVerifyingAtOnce) return {.why = "Many sign in at this moment. Try again.", .wait_s = 2};
   AccountStore accounts(context.desk.database);
+  const auto known = accounts.find(login);
+  if (const int seconds = limit.begin(login, from, context.now, known.has_value()); seconds > 0) {
+    say("sign-in held back: " + who);
+    return {.why = waiting_words(seconds), .wait_s = seconds};
+  }
   // Before the password is looked at, which takes a while: one that is reset meanwhile must not get the new one's
   // stamp.
-  const auto known = accounts.find(login);
   const std::string stamp = known ? sign_in_stamp(context.desk.database, known->uuid) : "";
   Try out{.account = accounts.verify(login, password)};
   if (out.account && known && out.account->uuid == known->uuid) out.stamp = stamp;
@@ -129,8 +147,8 @@ Answer DeskGate::try_sign_in(RequestContext& context, const std::string& login, 
   const std::string password = context.request.form["password"];
   const Try tried =
       try_password(context, login, password, looks_like_pin(password) ? pin_limit_ : limit_, context.incoming.address);
-  if (tried.wait_s > 0) {
-    Answer late = ask_to_sign_in(context, 429, tried.why, login, next);
+  if (!tried.why.empty()) {
+    Answer late = ask_to_sign_in(context, tried.wait_s > 0 ? 429 : 503, tried.why, login, next);
     late.retry_after_s = tried.wait_s;
     return late;
   }

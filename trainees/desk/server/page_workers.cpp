@@ -19,23 +19,20 @@ PageWorkers::PageWorkers(int count, const std::function<Database()>& open, const
     }
   }
   if (!failure) return;
-  {
-    const std::scoped_lock lock(mutex_);
-    ends_ = true;
-  }
-  come_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  finish();
   std::rethrow_exception(failure);
 }
 
-PageWorkers::~PageWorkers() {
+PageWorkers::~PageWorkers() { finish(); }
+
+void PageWorkers::finish() {
   {
     const std::scoped_lock lock(mutex_);
     ends_ = true;
-    jobs_.clear();  // whoever waits for them gets a broken promise
   }
   come_.notify_all();
   for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
 }
 
 void PageWorkers::work(const std::function<Database()>& open, const DeskSources& sources, bool demo,
@@ -49,31 +46,56 @@ void PageWorkers::work(const std::function<Database()>& open, const DeskSources&
   }
   Desk desk{*database, sources, demo, std::make_shared<DeskMemory>()};
   ready.set_value();
-  while (true) {
-    std::unique_lock lock(mutex_);
-    come_.wait(lock, [&] { return ends_ || !jobs_.empty(); });
-    if (ends_) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    lock.unlock();
-    job(desk);
-  }
+  while (const Job job = next()) job(&desk);
 }
 
-std::optional<Answer> PageWorkers::run(const std::function<Answer(Desk&)>& make) {
-  Job job(make);
-  std::future<Answer> made = job.get_future();
+/// Waits for one. @returns none when it ends.
+PageWorkers::Job PageWorkers::next() {
+  std::unique_lock lock(mutex_);
+  come_.wait(lock, [&] { return ends_ || count_ > 0; });
+  if (count_ == 0) return {};
+  --count_;
+  const auto own = waiting_.find(turns_.front());
+  Job job = std::move(own->second.front());
+  own->second.pop_front();
+  if (own->second.empty())
+    waiting_.erase(own);
+  else
+    turns_.push_back(own->first);
+  turns_.pop_front();
+  return job;
+}
+
+void PageWorkers::give(const std::string& turn, Job job) {
   {
     const std::scoped_lock lock(mutex_);
-    if (ends_ || jobs_.size() >= kMostWaiting) return {};
-    jobs_.push_back(std::move(job));
+    if (ends_) return;
+    if (count_ < kMostWaiting) {
+      ++count_;
+      std::deque<Job>& own = waiting_[turn];
+      if (own.empty()) turns_.push_back(turn);
+      own.push_back(std::move(job));
+      job = nullptr;
+    }
   }
-  come_.notify_one();
-  try {
-    return made.get();
-  } catch (const std::future_error&) {
-    return {};
-  }
+  if (job)
+    job(nullptr);
+  else
+    come_.notify_one();
+}
+
+void PageWorkers::run(const std::string& turn, const Job& job) {
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> called = done->get_future();
+  give(turn, [&job, done](Desk* desk) {
+    try {
+      job(desk);
+    } catch (...) {
+      return done->set_exception(std::current_exception());
+    }
+    done->set_value();
+  });
+  called.get();
 }
 
 }  // namespace trocar::review

@@ -5,7 +5,10 @@
 // keeps nobody out; those from an address in 15 minutes, which a whole class may share; and, for who guesses from many
 // addresses, those of a login in a day from wherever it never was right, of which a hundred are free. A try counts as
 // wrong from its beginning until it is known to be right, so that many at once gain nothing. Where somebody who is
-// signed in gives the password again, the session stands for the address. Thread: any.
+// signed in gives the password again, the session stands for the address.
+//
+// What is counted has an upper bound: where too much is, the counts of logins that exist stay longest, then the high
+// ones, then the newest, so that tries with invented logins let nobody go on guessing. Thread: any.
 #pragma once
 
 #include <chrono>
@@ -26,8 +29,8 @@ class SignInLimit {
   static constexpr std::size_t kMostKnown = 20000, kMostTold = 60, kMostOwn = 16;
 
   /// Seconds to wait before a try is taken, 0: it is taken, and counts as wrong. A try that is not taken counts
-  /// nothing.
-  int begin(const std::string& login, const std::string& address, DeskTime now);
+  /// nothing. @param exists the login is an account's.
+  int begin(const std::string& login, const std::string& address, DeskTime now, bool exists = false);
   /// The try that began was wrong, and from now on the login or the address has to wait: told once, and no more than
   /// kMostTold times an hour, for the audit trail keeps it for ever.
   bool tell_held_back(const std::string& login, const std::string& address, DeskTime now);
@@ -40,13 +43,20 @@ class SignInLimit {
     std::string key;
     std::chrono::seconds memory;
     int free;
+    bool of_login = false;  ///< from wherever
+  };
+  struct Wrong {
+    Tries tries = {};
+    std::chrono::seconds memory{0};
+    bool stays = false;         ///< of a login that exists
+    void forget(DeskTime now);  ///< those that are older
   };
   std::vector<Counted> counted(const std::string& login, const std::string& address) const;
   int wait(const Counted& counted, DeskTime now);
-  void make_room();
+  void make_room(DeskTime now);
 
   std::mutex mutex_;
-  std::map<std::string, Tries> wrong_;
+  std::map<std::string, Wrong> wrong_;
   std::map<std::string, std::vector<std::string>> own_;  ///< where a login was right, newest last
   Tries told_;
 };

@@ -181,8 +181,14 @@ PageLanguage::PageLanguage(const std::filesystem::path& folder, const std::strin
       day_ = text_in(file, node);
     } else if (key == "months" && node.is_array()) {
       for (const toml::node& month : *node.as_array()) months_.push_back(text_in(file, month));
+    } else if (key == "units" && node.is_table()) {
+      for (const auto& [unit, own] : *node.as_table()) {
+        if (!united(unit.str())) throw wrong_entry(file, own, "'" + std::string(unit.str()) + "' is no unit");
+        units_.emplace(unit.str(), text_in(file, own));
+      }
     } else if (key != "words" || !node.is_table()) {
-      throw wrong_entry(file, node, "'" + key + "' is not known; a catalogue has decimal, day, months and [words]");
+      throw wrong_entry(file, node,
+                        "'" + key + "' is not known; a catalogue has decimal, day, months, units and [words]");
     }
   }
   if (decimal_.empty() || day_.find("{0}") == std::string::npos || months_.size() != kEnglishMonths.size() ||
@@ -218,9 +224,12 @@ std::string PageLanguage::number(std::string_view text) const {
   std::string out;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::size_t month = i + 1 < tokens.size() && digit(tokens[i][0]) ? month_of(tokens[i + 1].substr(0, 3)) : 99;
-    if (!out.empty()) out += ' ';
+    const auto unit = units_.find(tokens[i].substr(0, tokens[i].find_last_not_of(",.;)") + 1));
+    const std::string own =
+        unit == units_.end() ? with_sign(tokens[i], decimal_) : unit->second + tokens[i].substr(unit->first.size());
+    if (!out.empty() && !own.starts_with("\xC2\xB0")) out += ' ';  // a degree sign stands at its number
     if (month >= kEnglishMonths.size()) {
-      out += with_sign(tokens[i], decimal_);
+      out += own;
       continue;
     }
     const bool year = i + 2 < tokens.size() && tokens[i + 2].size() >= 4 && digit(tokens[i + 2][3]);
@@ -252,6 +261,16 @@ bool PageLanguage::parts_known(Values& values, int depth, Asking& asking) const 
   return true;
 }
 
+/// "Not done. a.db": a sentence that is known by itself belongs to no name behind it.
+bool PageLanguage::begins_with_known(std::string_view text) const {
+  const std::size_t stop = text.find(". ");
+  if (stop == std::string_view::npos) return false;
+  const std::string said(text.substr(0, stop + 1)), capital = with_capital(said);
+  for (const std::string& sentence : {said, capital})
+    if (exact_.contains(sentence) || exact_.contains(sentence.substr(0, stop))) return true;
+  return false;
+}
+
 /// Numbers are looked at on the way, parts when all the rest fits: they cost more.
 bool PageLanguage::fits(const Form& form, std::size_t piece, std::string_view text, int depth, Values& values,
                         Asking& asking) const {
@@ -266,6 +285,7 @@ bool PageLanguage::fits(const Form& form, std::size_t piece, std::string_view te
        at != std::string_view::npos && at > 0; at = ends || last ? 0 : text.find(next, at + 1)) {
     const std::string_view value = text.substr(0, at);
     if (now.kind == 'n' && !numeric(value)) continue;
+    if (now.kind == 't' && piece == 0 && begins_with_known(value)) continue;
     Values taken = values;
     (now.kind == 'n'   ? taken.n
      : now.kind == 'p' ? taken.p

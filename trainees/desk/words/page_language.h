@@ -1,22 +1,25 @@
 // The desk in other languages: a finished English page in, the same page with its words translated out.
 //
-// A catalogue (assets/languages/desk/de.toml) has the decimal sign, the form of a day, twelve months, and a table
-// [words] of "English" = "translation"; what it lacks comes from the window's (assets/languages/de.toml), so that
-// exercises, events and measures have one name. A key may have places: {n} a number with at most a unit, a date or a
-// time; {p} a part that has a translation itself; {t} any text, which stays as it is (a name, a code). The translation
-// has the same ones; where their order differs, {p2} is the second {p} of the key. What no entry fits stays English.
+// A catalogue (assets/languages/desk/de.toml) has the decimal sign, the form of a day, twelve months, the units that
+// are written otherwise, and a table [words] of "English" = "translation"; what it lacks comes from the window's
+// (assets/languages/de.toml), so that exercises, events and measures have one name. A key may have places: {n} a number
+// with at most a unit, a date or a time; {p} a part that has a translation itself; {t} any text, which stays as it is
+// (a name, a code). The translation has the same ones; where their order differs, {p2} is the second {p} of the key.
+// What no entry fits stays English.
 //
-// Looked up are texts between tags and the attributes alt, aria-label, data-words (what the script says), placeholder
-// and title, each as a whole; then without punctuation round it, with a small first letter, and sentence by sentence.
-// Of the entries that fit a text so, with its full stop or without, the one that says most of it by itself counts.
-// Elements with translate="no", code, classes "mono", "said" and "written", style and script are left alone: what
-// people wrote stands there. docs/decisions/0031-desk-languages.md says why it is done this way. Plain values, any
-// thread.
+// Looked up are texts between tags and the attributes alt, aria-label, data-label (the column of a table that a cell
+// stands in), data-words (what the script says), placeholder and title, each as a whole; then without punctuation round
+// it, with a small first letter, and sentence by sentence. Of the entries that fit a text so, with its full stop or
+// without, the one that says most of it by itself counts; a {t} that begins an entry takes no sentence that is known.
+// Elements with translate="no", code, classes "mono", "said" and "written", style and script are left alone but for
+// data-label: what people wrote stands there. docs/decisions/0031-desk-languages.md says why it is done this way. Plain
+// values, any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -79,6 +82,7 @@ class PageLanguage {
   Found sentences(std::string_view english, int depth, Asking& asking) const;
   bool fits(const Form& form, std::size_t piece, std::string_view text, int depth, Values& values,
             Asking& asking) const;
+  bool begins_with_known(std::string_view text) const;
   bool parts_known(Values& values, int depth, Asking& asking) const;
   std::string said(std::string_view english, Asking& asking) const;
   std::string joint(std::string_view english) const;
@@ -86,6 +90,7 @@ class PageLanguage {
 
   std::string code_, decimal_, day_;
   std::vector<std::string> months_;
+  std::map<std::string, std::string, std::less<>> units_;  ///< those that are written otherwise
   std::set<std::string> keys_;
   std::unordered_map<std::string, std::string> exact_;
   std::vector<Form> forms_;                                 ///< most literal text first

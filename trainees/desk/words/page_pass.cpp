@@ -7,7 +7,9 @@
 namespace trocar::review {
 namespace {
 
-constexpr std::array<std::string_view, 5> kReadAttributes = {"alt", "aria-label", "data-words", "placeholder", "title"};
+constexpr std::string_view kLabel = "data-label";  // the desk's own word, whatever stands in its element
+constexpr std::array<std::string_view, 6> kReadAttributes = {"alt",        "aria-label",  kLabel,
+                                                             "data-words", "placeholder", "title"};
 constexpr std::array<std::string_view, 4> kForeignElements = {"code", "script", "style", "textarea"};
 constexpr std::array<std::string_view, 3> kForeignClasses = {"mono", "said", "written"};
 constexpr std::array<std::string_view, 6> kVoidElements = {"br", "hr", "img", "input", "link", "meta"};
@@ -134,11 +136,11 @@ class PagePass {
       foreign =
           foreign || (attribute == "translate" && said == "no") || (attribute == "class" && has_foreign_class(said));
       if (among(kReadAttributes, attribute) || (name == "html" && attribute == "lang"))
-        read_.emplace_back(value, close);
+        read_.push_back({value, close, attribute == kLabel});
       to = std::min(close + 1, html_.size());
     }
     to = std::min(to, html_.size());
-    if (foreign_.empty() && !foreign) attributes(name);
+    if (foreign_.empty()) attributes(name, foreign);
     copy_to(std::min(to + 1, html_.size()));
     if (empty) return;
     if (foreign_.empty() && foreign) {
@@ -149,8 +151,9 @@ class PagePass {
     }
   }
 
-  void attributes(std::string_view name) {
-    for (const auto& [from, to] : read_) {
+  void attributes(std::string_view name, bool foreign) {
+    for (const auto& [from, to, label] : read_) {
+      if (foreign && !label) continue;
       copy_to(from);
       if (name == "html")
         out_ += language_.code();
@@ -167,7 +170,11 @@ class PagePass {
   std::size_t at_ = 0;
   std::string_view foreign_ = {};  ///< element whose words are left alone; "" outside
   int depth_ = 0;                  ///< of elements of that name in it
-  std::vector<std::pair<std::size_t, std::size_t>> read_ = {};
+  struct Read {
+    std::size_t from, to;
+    bool label;
+  };
+  std::vector<Read> read_ = {};
   std::unordered_map<std::string_view, std::string> seen_ = {};
 };
 

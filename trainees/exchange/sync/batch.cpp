@@ -85,11 +85,10 @@ class BatchReader {
   }
 
   void add_attempt(const std::string& uuid) {
-    sql::Statement about(
-        connection_,
-        "SELECT a.id, t.uuid, a.exercise_id, a.ruleset_sha256, EXISTS (SELECT 1 FROM erasure e WHERE"
-        " e.trainee_id = t.id AND e.kind = 'training') FROM attempt a JOIN trainee t ON t.id = a.trainee_id"
-        " WHERE a.uuid = ?");
+    sql::Statement about(connection_,
+                         "SELECT a.id, t.uuid, a.exercise_id, a.ruleset_sha256, EXISTS (SELECT 1 FROM erasure e WHERE"
+                         " e.trainee_id = t.id AND e.kind = 'training' AND row_holds('erasure', e.id)) FROM attempt a"
+                         " JOIN trainee t ON t.id = a.trainee_id WHERE a.uuid = ?");
     if (!about.bind(uuid).step()) {
       batch_->problems.push_back("attempt " + uuid + " is in the audit trail and not in the database; not pushed");
       return;

@@ -53,17 +53,6 @@ void change(sqlite3* connection, std::int64_t trainee, const Membership& members
                membership.second, kFromCentre);
 }
 
-/// @returns whether it was news here.
-bool meet(sqlite3* connection, const std::string& note, const std::string& utc) {
-  sql::Statement insert(connection,
-                        "INSERT INTO note_seen SELECT id, ?2 FROM note n WHERE uuid = ?1 AND NOT EXISTS"
-                        " (SELECT 1 FROM note_seen WHERE note_id = n.id) RETURNING 1");
-  if (!insert.bind(note).bind(utc).step()) return false;
-  insert.run();
-  keep_note_seen(connection, note, utc, kFromCentre);
-  return true;
-}
-
 }  // namespace
 
 void take_memberships(CentralLink& link, Database& database, const Links& links, PullReport& report) {
@@ -97,7 +86,7 @@ void take_seen(CentralLink& link, Database& database, std::int64_t since, PullRe
   for (const Values& row : rows) {
     bool news = false;
     if (take_one(database.connection(), "that note " + *row[0] + " was met", report.problems,
-                 [&] { news = meet(database.connection(), *row[0], *row[1]); }))
+                 [&] { news = keep_note_seen(database.connection(), *row[0], *row[1], kFromCentre); }))
       taken += news;
   }
   transaction.commit();

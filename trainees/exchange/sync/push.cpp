@@ -9,6 +9,7 @@
 #include "trainees/exchange/sync/station.h"
 #include "trainees/exchange/sync/synchronise.h"
 #include "trainees/integrity/audit.h"
+#include "trainees/integrity/kept_rows.h"
 #include "trainees/integrity/witness.h"
 #include "trainees/records/demo_record.h"
 #include "trainees/records/replica_facts.h"
@@ -243,11 +244,13 @@ std::int64_t seen_mark(sqlite3* connection) {
   return sql::query_integer(connection, "SELECT count(*) + 1000003 * coalesce(sum(note_id), 0) FROM note_seen");
 }
 
+/// As signed entries say: what somebody put in goes nowhere.
 std::vector<Values> seen_notes(sqlite3* connection) {
   std::vector<Values> rows;
-  sql::Statement notes(connection,
-                       "SELECT n.uuid, s.utc FROM note_seen s JOIN note n ON n.id = s.note_id ORDER BY n.uuid");
-  while (notes.step()) rows.push_back({notes.text(0), notes.text(1)});
+  SeenEntries met(connection);
+  sql::Statement notes(connection, "SELECT n.uuid FROM note_seen s JOIN note n ON n.id = s.note_id ORDER BY n.uuid");
+  while (notes.step())
+    if (std::string utc = met.when(notes.text(0)); !utc.empty()) rows.push_back({notes.text(0), std::move(utc)});
   return rows;
 }
 

@@ -51,8 +51,8 @@ std::vector<Recorded> recorded(const Database& database, bool others) {
       std::string("SELECT uuid, recording_sha256, recording_path FROM attempt a"
                   " WHERE status <> 'running' AND recording_sha256 <> '' AND id ") +
           (others ? "" : "NOT ") +
-          "IN (SELECT attempt_id FROM replica) AND NOT EXISTS"
-          " (SELECT 1 FROM erasure e WHERE e.trainee_id = a.trainee_id AND e.kind = 'training') ORDER BY id");
+          "IN (SELECT attempt_id FROM replica) AND trainee_id NOT IN"
+          " (SELECT trainee_id FROM erasure WHERE kind = 'training' AND row_holds('erasure', id)) ORDER BY id");
   while (rows.step())
     all.push_back({rows.text(0), rows.text(1), recording_here(database.file(), rows.text(2), rows.text(0))});
   return all;
@@ -192,8 +192,8 @@ int fetch_recordings(CentralLink& link, Database& database, std::vector<std::str
 
 void drop_erased_recordings(Database& database) {
   sql::Statement rows(database.connection(),
-                      "SELECT a.uuid FROM attempt a JOIN erasure e ON e.trainee_id = a.trainee_id AND"
-                      " e.kind = 'training' JOIN replica r ON r.attempt_id = a.id");
+                      "SELECT a.uuid FROM attempt a JOIN replica r ON r.attempt_id = a.id WHERE a.trainee_id IN"
+                      " (SELECT trainee_id FROM erasure WHERE kind = 'training' AND row_holds('erasure', id))");
   while (rows.step()) {
     const fs::path file = fetched_recording(database.file(), rows.text(0));
     std::error_code none;

@@ -67,7 +67,8 @@ class Replica {
       const std::string uuid = *row[0], tail = uuid.substr(uuid.size() - std::min<std::size_t>(uuid.size(), 8));
       sql::Statement here(
           connection_,
-          "SELECT t.id, EXISTS (SELECT 1 FROM erasure WHERE trainee_id = t.id), p.trainee_id IS NOT NULL"
+          "SELECT t.id, EXISTS (SELECT 1 FROM erasure e WHERE trainee_id = t.id AND row_holds('erasure', e.id)),"
+          " p.trainee_id IS NOT NULL"
           " FROM trainee t LEFT JOIN person p ON p.trainee_id = t.id WHERE t.uuid = ?");
       if (!here.bind(uuid).step() || here.integer(1) != 0) continue;
       if (!row[1] && here.integer(2) != 0) continue;
@@ -91,7 +92,8 @@ class Replica {
       const std::string table = row[0]->substr(0, row[0]->find(' '));
       sql::Statement here(connection_, "SELECT e.uuid FROM " + table +
                                            " r JOIN attempt a ON a.id = r.attempt_id JOIN erasure e ON"
-                                           " e.trainee_id = a.trainee_id WHERE r.uuid = ?");
+                                           " e.trainee_id = a.trainee_id AND row_holds('erasure', e.id)"
+                                           " WHERE r.uuid = ?");
       if (!here.bind(*row[1]).step()) continue;
       note_erased_row(connection_, table, *row[1], here.text(0), "");
       here.run();
@@ -213,7 +215,8 @@ class Replica {
   bool erased(std::int64_t id) const {
     sql::Statement row(
         connection_,
-        "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = ? AND e.kind = 'training'");
+        "SELECT 1 FROM erasure e JOIN attempt a ON a.trainee_id = e.trainee_id WHERE a.id = ? AND e.kind = 'training'"
+        " AND row_holds('erasure', e.id)");
     return row.bind(id).step();
   }
 

@@ -193,6 +193,16 @@ TEST(AttemptPage, ACertificateIsCalledByItsExerciseAndTheTitleCanBeTranslated) {
   EXPECT_NE(html.find("<title>Surface touch L2, dubois - Trocar desk"), std::string::npos);
 }
 
+TEST(AttemptPage, ItsOriginNamesTheExerciseByItsTitle) {
+  AttemptView view = sample_attempt();
+  view.exercise = "Surface touch";
+  view.result.exercise_version = "2";
+  view.result.level = "L1";
+  EXPECT_NE(
+      check_page(attempt_page(view, sample_frame())).by_id("origin")->text.find("Surface touch, version 2, level L1"),
+      std::string::npos);
+}
+
 TEST(AttemptPage, ASignatureOfOtherBytesShows) {
   AttemptView view = sample_attempt();
   EXPECT_EQ(sign_off_section(view, sample_frame()).find("other bytes"), std::string::npos);

@@ -129,6 +129,19 @@ double contrast(const std::string& a, const std::string& b) {
   return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
 
+TEST(Frame, CellsOfAStackedTableSayTheirColumn) {
+  const std::string html =
+      stacked_table("x", {">No.", "A & b", ""},
+                    "<tr><th scope=\"row\">1</th><td class=\"n\">2</td><td>3</td></tr>"
+                    "<tr class=\"grave\"><td>4</td><td>5</td></tr><tr><td colspan=\"3\">6</td></tr>",
+                    "audit");
+  for (const char* part :
+       {"<table class=\"stacked audit\">",
+        "<th scope=\"row\">1</th><td data-label=\"A &amp; b\" class=\"n\">2</td><td>3</td>",
+        "<td data-label=\"No.\">4</td><td data-label=\"A &amp; b\">5</td>", "<td colspan=\"3\">6</td>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+}
+
 TEST(Style, TextHoldsFourAndAHalfToOne) {
   EXPECT_NEAR(contrast("#000", "#ffffff"), 21, 1e-9);
   EXPECT_NEAR(contrast("#777777", "#ffffff"), 4.48, 0.01);
@@ -153,7 +166,8 @@ TEST(Style, AsksNothingOfOthersAndHasPrintAndPhone) {
   const std::string css = style_sheet();
   for (const char* word : {"http:", "https:", "url(", "@import", "//"})
     EXPECT_EQ(css.find(word), std::string::npos) << word;
-  for (const char* word : {"@media print", "max-width:560px", ":focus-visible", ".scroll{overflow-x:auto"})
+  for (const char* word : {"@media print", "max-width:560px", ":focus-visible", ".scroll{overflow-x:auto",
+                           ".scroll,.plot{background:linear-gradient", ".stacked tr{display:flex", "attr(data-label)"})
     EXPECT_NE(css.find(word), std::string::npos) << word;
 }
 

@@ -236,7 +236,21 @@ TEST_F(DeskAdmin, TheAuditTrailTellsAProgrammeFromRulesAndTheProgramFromPeople) 
     program = program || !entry.named;
   }
   EXPECT_TRUE(program && !named) << "nobody with an account did anything yet";
-  EXPECT_NE(page("/audit", signed_in("adam")).find("<td>the program</td>"), std::string::npos);
+  EXPECT_NE(page("/audit", signed_in("adam")).find(">the program</td>"), std::string::npos);
+}
+
+TEST_F(DeskAdmin, AnEntryThatTheStationDidNotSignIsMarked) {
+  add_accounts();
+  const Visitor adam = signed_in("adam");
+  EXPECT_EQ(page("/audit", adam).find("not signed by the station"), std::string::npos);
+  ASSERT_EQ(run_outside(file_,
+                        "INSERT INTO audit SELECT position + 1, utc, actor, 'certificate added', 'x', 'x', row_hash,"
+                        " 'x', signature FROM audit ORDER BY position DESC LIMIT 1"),
+            "");
+  const std::string body = page("/audit", adam);
+  const std::size_t at = body.find("not signed by the station");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(body.find("not signed by the station", at + 1), std::string::npos) << "the others are signed";
 }
 
 TEST_F(DeskAdmin, TheRecordsPageTellsAClockThatWentBackBeforeAnybodyChecks) {

@@ -12,6 +12,7 @@
 #include "trainees/desk/routes/route_table.h"
 #include "trainees/records/assessments.h"
 #include "trainees/records/curricula.h"
+#include "trainees/store/sqlite_handle.h"
 
 namespace trocar::review::desk_decisions_test {
 namespace {
@@ -175,6 +176,47 @@ TEST_F(DeskDecisions, ACertificateWhoseAttemptsNoLongerCountIsInQuestionEverywhe
   EXPECT_NE(sheet.find("since: not passed, by Dr Ines Okafor"), std::string::npos);
   EXPECT_EQ(ask("POST", "/attempt/" + early.uuid + "/override", {{"passed", "yes"}, {"reason", kReason}}).status, 303);
   EXPECT_EQ(ask("GET", "/trainee/steady").body.find("In question"), std::string::npos) << "it holds again";
+}
+
+/// Put in by SQL: it is shown, counts for nothing and keeps the real one not out.
+TEST_F(DeskDecisions, ACertificateThatNobodySignedIsInQuestionAndTheRealOneCanBeGiven) {
+  const std::string uuid = "ffffffff-0000-7000-8000-000000000107", why = "it is not signed with the station";
+  sql::execute(
+      database_.connection(),
+      ("INSERT INTO certificate (uuid, trainee_id, exercise_id, level, rule_version, evidence, author, printed,"
+       " utc) SELECT '" +
+       uuid +
+       "', trainee_id, 'surface-touch', 'L1', '1', '{}', '', 'M', '2026-05-01T10:00:00.000Z' FROM"
+       " person WHERE code = 'steady'")
+          .c_str());
+  const std::string before = text(path_of(last_), "sign");
+  EXPECT_NE(before.find("In question: " + why), std::string::npos) << before;
+  EXPECT_NE(before.find("Certify steady for"), std::string::npos) << before;
+  EXPECT_NE(ask("GET", "/").body.find("a certificate is there: " + why), std::string::npos);
+  EXPECT_NE(text("/trainee/steady", "certificates").find("In question: " + why), std::string::npos);
+  EXPECT_NE(text("/trainee/steady", "due").find("Nothing is due."), std::string::npos);
+  EXPECT_NE(certificate_file(desk_, uuid, {.format = ReportFormat::kHtml, .now_utc = "2026-06-01T10:00:00Z"})
+                .find("IN QUESTION: " + why),
+            std::string::npos);
+  EXPECT_EQ(ask("POST", path_of(last_) + "/certify").status, 303);
+  EXPECT_EQ(ask("GET", "/").body.find("class=\"badge in-question\""), std::string::npos) << "the real one is held";
+  EXPECT_EQ(text(path_of(last_), "sign").find("Certify steady for"), std::string::npos);
+}
+
+TEST_F(DeskDecisions, ANoteThatNobodySignedIsMarked) {
+  AssessmentStore(database_).add_note("new", failed_.uuid, "Slower.", {"a-1", "Dr Ines Okafor"});
+  for (const std::string& path : {path_of(failed_), std::string("/trainee/new")})
+    EXPECT_EQ(text(path, "notes").find("Not signed with the station"), std::string::npos) << path;
+  sql::execute(database_.connection(),
+               "INSERT INTO note (uuid, trainee_id, attempt_id, author, printed, text, utc) SELECT"
+               " 'ffffffff-0000-7000-8000-000000000108', trainee_id, attempt_id, author, printed, 'Give up.', utc FROM"
+               " note");
+  for (const std::string& path : {path_of(failed_), std::string("/trainee/new")}) {
+    const std::string notes = text(path, "notes");
+    const std::size_t at = notes.find("Not signed with the station's key, or changed since");
+    EXPECT_GT(at, notes.find("Give up.")) << notes;
+    EXPECT_LT(at, notes.find("Slower.")) << notes;
+  }
 }
 
 TEST_F(DeskDecisions, ReliabilityStandsBesideEveryDecision) {

@@ -181,9 +181,14 @@ TEST_F(DeskProgrammes, WithoutTheStationsKeyNothingIsAssignedOrWithdrawn) {
        {std::pair<std::string, std::string>{"/programmes/assign", "programme=Basics&trainee=T-otto"},
         {"/programmes/withdraw", "assignment=" + held},
         {"/roster/selected", "p%3AT-anna=yes&do=deactivate"},
+        {"/roster/selected", "p%3AT-anna=yes&do=join&group=spring"},
+        {"/trainee/T-anna/note", "text=Slower."},
+        {"/attempt/" + annas_ + "/note", "text=Slower."},
+        {"/attempt/" + annas_ + "/rate", "scale=GOALS&autonomy=4"},
         {"/roster/add", "code=N-1"}}) {
     const std::string refused = sound(path, post(path, form), 400);
     EXPECT_TRUE(has(refused, "Nothing was written, for what is not signed counts nowhere")) << path;
+    EXPECT_EQ(has(refused, "Slower."), has(form, "Slower.")) << path << ": what was typed stays";
   }
   for (const std::string path : {"/", "/roster", "/programmes", "/curriculum", "/trainee/T-anna"}) {
     const std::string shown = page(path);

@@ -226,15 +226,86 @@ TEST_F(DeskServerTest, PageThreadsHandBackErrorsAndEnd) {
   PageWorkers workers(
       3, [&] { return ++opened, Database(file_); }, {}, true);
   EXPECT_EQ(opened, 3) << "a database each";
-  EXPECT_THROW(workers.run([](Desk&) -> Answer { throw std::out_of_range("x"); }), std::out_of_range);
-  EXPECT_EQ(
-      workers.run([](Desk& desk) { return Answer{.response = {.status = desk.demo ? 201 : 200}}; })->response.status,
-      201);
+  EXPECT_THROW(workers.run("", [](Desk*) { throw std::out_of_range("x"); }), std::out_of_range);
+  bool demo = false;
+  workers.run("", [&](Desk* desk) { demo = desk->demo; });
+  EXPECT_TRUE(demo);
   int count = 0;
   const auto second_fails = [&]() -> Database {
     return ++count == 2 ? throw EnvironmentError("full") : Database(file_);
   };
   EXPECT_THROW(PageWorkers(3, second_fails, {}, false), EnvironmentError);
+}
+
+TEST_F(DeskServerTest, WhoAsksOftenKeepsNobodyWaiting) {
+  PageWorkers workers(
+      1, [&] { return Database(file_); }, {}, false);
+  std::promise<void> begun, made;
+  workers.give("anna", [&](Desk*) {
+    begun.set_value();
+    made.get_future().wait();
+  });
+  begun.get_future().wait();
+  std::string served;
+  std::size_t refused = 0;
+  const auto give = [&](const std::string& who) {
+    workers.give(who, [&, who](Desk* desk) {
+      if (desk != nullptr)
+        served += who.front();
+      else
+        ++refused;
+    });
+  };
+  for (int i = 0; i < 100; ++i) give("anna");
+  for (const char* who : {"otto", "ines", "otto"}) give(who);
+  for (int i = 0; i < 200; ++i) give("anna");
+  EXPECT_EQ(refused, 303 - PageWorkers::kMostWaiting);
+  made.set_value();
+  workers.finish();
+  give("late");
+  EXPECT_EQ(served.substr(0, 7), "aoiaoaa") << "one of each in a round";
+  EXPECT_EQ(served.size(), PageWorkers::kMostWaiting);
+  EXPECT_EQ(served.find('l'), std::string::npos);
+}
+
+TEST_F(DeskServerTest, APageWaitsForOneOfEachOtherVisitor) {
+  add_accounts();
+  std::mutex busy;
+  std::atomic<int> begun{0};
+  DeskServerOptions slow = options();
+  slow.page_threads = 1;
+  slow.routes.push_back(
+      {.method = "GET", .path = "/heavy/{code}", .audience = Audience::kOwnData, .answer = [&](const Request&, Desk&) {
+         ++begun;
+         const std::scoped_lock held(busy);
+         std::this_thread::sleep_for(std::chrono::milliseconds(20));
+         return Response{.body = "heavy"};
+       }});
+  serve(std::move(slow));
+  const Visitor anna = signed_in_there("anna"), ines = signed_in_there("ines");
+  std::vector<std::unique_ptr<SlowVisitor>> tabs;
+  std::unique_lock closed(busy);
+  for (int i = 0; i < 14 * 3; ++i) {
+    const std::string from = "127.0.0." + std::to_string(2 + i % 3);
+    tabs.push_back(std::make_unique<SlowVisitor>(port(), from.c_str()));
+    tabs.back()->send(raw_get(port(), "/heavy/T-anna", anna.cookie));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // one is being made, the others wait
+  EXPECT_EQ(begun, 1);
+  std::atomic<int> before_hers{99}, before_stranger{99};
+  std::thread hers([&] {
+    if (get("/staff/x", ines.cookie) == 200) before_hers = begun.load();
+  });
+  std::thread stranger([&] {
+    if (get("/sign-in") == 200) before_stranger = begun.load();
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  closed.unlock();
+  hers.join();
+  stranger.join();
+  EXPECT_LT(before_hers, 14);
+  EXPECT_LT(before_stranger, 14);
+  server_->stop();  // what is still made uses what stands here
 }
 
 }  // namespace

@@ -140,6 +140,35 @@ TEST(SignInLimit, KeepsItsSizeAndItsHeldBack) {
   EXPECT_GT(limit.begin("anna", "10.0.0.1", kBegin), 0) << "a flood of old tries does not free it";
 }
 
+/// Tries from ever other addresses, each with another invented login.
+void flood(SignInLimit& limit, int count, int& address, DeskTime now) {
+  for (int i = 0; i < count; ++i, ++address)
+    limit.begin("x" + std::to_string(address), "flood " + std::to_string(address), now);
+}
+
+TEST(SignInLimit, InventedLoginsFreeNobodysLogin) {
+  for (const bool exists : {true, false}) {
+    SignInLimit limit;
+    int address = 0;
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(limit.begin("T01", "a" + std::to_string(i), kBegin, exists), 0) << i;
+    flood(limit, 20000, address, kBegin + seconds(5));
+    EXPECT_EQ(limit.begin("T01", "b", kBegin + seconds(10), exists), 20) << exists;
+    EXPECT_EQ(limit.begin("T01", "b", kBegin + seconds(30), exists), 0) << exists;
+    flood(limit, 20000, address, kBegin + seconds(40));
+    EXPECT_EQ(limit.begin("T01", "c", kBegin + seconds(50), exists), 40) << exists;
+  }
+}
+
+TEST(SignInLimit, InventedLoginsDoNotClearTheFirstTriesOfOneThatExists) {
+  SignInLimit limit;
+  int address = 0, taken = 0;
+  for (int i = 0; i < 150; ++i) {
+    taken += limit.begin("T01", "a" + std::to_string(i), kBegin, true) == 0;
+    flood(limit, 200, address, kBegin + seconds(1));
+  }
+  EXPECT_EQ(taken, 100);
+}
+
 TEST(HeldBack, IsToldWhenTheWaitBeginsAndNotAgain) {
   SignInLimit limit;
   DeskTime now{std::chrono::hours(1000)};

@@ -1,9 +1,12 @@
 // Signing in and out, the station's own instructor, and what ends a session besides time.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/trainees/desk/server/desk_samples.h"
 #include "trainees/desk/pages/desk_page.h"
 #include "trainees/desk/server/url_text.h"
+#include "trainees/integrity/station_key.h"
 #include "trainees/markup/html.h"
 #include "trainees/store/disk_full.h"
 #include "trainees/store/sqlite_handle.h"
@@ -206,6 +209,48 @@ TEST_F(DeskSignIn, ManyWrongTriesLeaveOneEntry) {
   EXPECT_EQ(comings(database_).back(), "sign-in held back nobody by trocar")
       << "a login that does not exist is not written down";
   EXPECT_EQ(problems_of(database_), "");
+}
+
+TEST_F(DeskSignIn, UnderAnotherKeyNoTryCountsAndThePageSaysWhy) {
+  add_accounts();
+  make_gate();
+  const Visitor visitor = stranger();
+  const std::filesystem::path own = key_path(file_), away = folder_ / "away.key";
+  std::filesystem::rename(own, away);
+  write_station_key(file_, SigningKey::make());
+  const std::string why =
+      "Nobody can sign in to this record now: its key desk.db.key is not the one that signs this record";
+  for (int i = 0; i < 8; ++i) {
+    const Answer answer = try_sign_in("ines", i % 2 == 0 ? kPassword : "wrong", visitor);
+    EXPECT_EQ(answer.response.status, 503);
+    EXPECT_NE(answer.response.body.find(why), std::string::npos) << answer.response.body;
+  }
+  EXPECT_NE(ask("GET", "/sign-in", visitor).response.body.find(why), std::string::npos) << "before anybody tries";
+  std::ofstream(folder_ / "no.key") << "no key";
+  std::filesystem::rename(folder_ / "no.key", own);
+  EXPECT_NE(try_sign_in("ines", kPassword, visitor).response.body.find("its key cannot be read"), std::string::npos);
+  EXPECT_EQ(ask("GET", "/sign-in", visitor).response.status, 200);
+  std::filesystem::rename(away, own);
+  EXPECT_TRUE(comings(database_).empty());
+  EXPECT_EQ(problems_of(database_), "");
+  EXPECT_EQ(try_sign_in("ines", kPassword, visitor).response.status, 303) << "no try counted";
+  std::filesystem::remove(own);
+  EXPECT_EQ(try_sign_in("ines", kPassword, stranger()).response.status, 303) << "without a key people read";
+}
+
+TEST_F(DeskSignIn, WhoWaitsForPagesIsTheAccountOrTheAddress) {
+  add_accounts();
+  make_gate();
+  const auto turn = [&](const std::string& cookie, const std::string& address) {
+    RequestHead head;
+    head.headers["cookie"] = cookie;
+    return gate_->turn(head, address);
+  };
+  const Visitor one = signed_in("ines"), other = signed_in("ines");
+  EXPECT_EQ(turn(one.cookie, "10.0.0.1"), turn(other.cookie, "10.0.0.2")) << "however many browsers";
+  EXPECT_NE(turn(one.cookie, "10.0.0.1"), turn(signed_in("anna").cookie, "10.0.0.1"));
+  EXPECT_EQ(turn(stranger().cookie, "10.0.0.1"), turn("", "10.0.0.1")) << "a number that anybody may make up";
+  EXPECT_NE(turn("", "10.0.0.1"), turn("", "10.0.0.2"));
 }
 
 TEST_F(DeskSignIn, WhatCannotBeRecordedDoesNotHappen) {

@@ -20,6 +20,7 @@
 #include "trainees/desk/pages/desk_page.h"
 #include "trainees/desk/pages/page_frame.h"
 #include "trainees/desk/queries/desk_queries.h"
+#include "trainees/desk/queries/record_views.h"
 #include "trainees/desk/routes/route_table.h"
 #include "trainees/integrity/audit.h"
 #include "trainees/integrity/sealed_rows.h"
@@ -35,12 +36,14 @@ const std::filesystem::path kTree = TROCAR_SOURCE_DIR, kFolder = kTree / "assets
 
 class PageLanguageFile : public TemporaryFolder {
  protected:
-  PageLanguage language(const std::string& words) {
+  PageLanguage language(const std::string& words, const std::string& unit = "MB") {
     std::filesystem::create_directories(folder_ / "desk");
     std::ofstream(folder_ / "de.toml")
         << "name = \"Deutsch\"\n[words]\n\"Hold\" = \"Halten\"\n\"{0} of {1}\" = \"x\"\n";
     std::ofstream(folder_ / "desk/de.toml")
-        << "decimal = \",\"\nday = \"{0}. {1} {2}\"\nmonths = [\"Jan.\", \"Feb.\", \"M\xC3\xA4rz\", \"Apr.\", \"Mai\", "
+        << "units = {deg = \"\xC2\xB0\", " << unit
+        << " = \"Mo\"}\ndecimal = \",\"\nday = \"{0}. {1} {2}\"\nmonths = [\"Jan.\", \"Feb.\", \"M\xC3\xA4rz\", "
+           "\"Apr.\", \"Mai\", "
            "\"Juni\", \"Juli\", \"Aug.\", \"Sep.\", \"Okt.\", \"Nov.\", \"Dez.\"]\n[words]\n"
         << words;
     return {folder_, "de"};
@@ -60,8 +63,20 @@ TEST_F(PageLanguageFile, WholeTextsPatternsAndSentences) {
   EXPECT_EQ(german.words("22 Nov 2026, 13:05"), "22. Nov. 2026, 13:05");
   EXPECT_EQ(german.words("1 Mar"), "1. M\xC3\xA4rz");
   EXPECT_EQ(german.words("86.5 mm/s"), "86,5 mm/s");
+  EXPECT_EQ(german.words("1.58 deg"), "1,58\xC2\xB0");
+  EXPECT_EQ(german.words("2 deg, 1.5 MB"), "2\xC2\xB0, 1,5 Mo");
+  EXPECT_EQ(german.words("deg"), "\xC2\xB0") << "the unit of an axis";
   EXPECT_EQ(german.words("1.2.3"), "1.2.3") << "a version is no number";
   EXPECT_EQ(german.words("Nobody knows"), "Nobody knows");
+}
+
+TEST_F(PageLanguageFile, ANameTakesNoSentenceThatIsKnown) {
+  const PageLanguage german = language(
+      "\"Not done.\" = \"Nein.\"\n\"Not done. {p}\" = \"Nein. {p}\"\n\"{t}: the disk is full, and nothing was "
+      "written\" = \"{t}: voll\"\n");
+  EXPECT_EQ(german.words("Not done. a.db.backup: the disk is full, and nothing was written."),
+            "Nein. a.db.backup: voll.");
+  EXPECT_EQ(german.words("Dr. Ann: the disk is full, and nothing was written."), "Dr. Ann: voll.");
 }
 
 TEST_F(PageLanguageFile, OfAPageOnlyWhatIsTheDesksOwnIsTranslated) {
@@ -75,6 +90,9 @@ TEST_F(PageLanguageFile, OfAPageOnlyWhatIsTheDesksOwnIsTranslated) {
         "<p class=\"said\">Ready</p>", "<textarea rows=\"2\">\nReady</textarea>", "<input value=\"Ready\"/>",
         "<!-- Ready -->", "<", "<p title", "&nbsp;", "<!"})
     EXPECT_EQ(page(kept), kept);
+  EXPECT_EQ(page("<td data-label=\"Ready\" title=\"Ready\" translate=\"no\">Ready</td>"),
+            "<td data-label=\"Be&lt;reit\" title=\"Ready\" translate=\"no\">Ready</td>")
+      << "a column's name is the desk's own, whatever its cell holds";
   EXPECT_EQ(page("<br translate=\"no\"><p>Ready</p>"), "<br translate=\"no\"><p>Be&lt;reit</p>");
   EXPECT_EQ(page("<b translate=\"no\"><i>Ready</i></b>Ready"), "<b translate=\"no\"><i>Ready</i></b>Be&lt;reit");
 }
@@ -89,6 +107,10 @@ TEST_F(PageLanguageFile, ACatalogueThatCannotBeRightIsRefusedWithItsPlace) {
       EXPECT_NE(std::string(error.what()).find("de.toml:"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST_F(PageLanguageFile, OnlyUnitsHaveASignOfTheirOwn) {
+  EXPECT_THROW(language("\"a\" = \"b\"\n", "flowers"), InputError);
 }
 
 TEST(PageLanguages, TheCookieGoesBeforeTheBrowser) {
@@ -229,6 +251,12 @@ TEST(Catalogues, SayWhatARecordBringsOntoPages) {
       "Film, Surface touch L1, demo-emil - Trocar desk",
       "Surface touch L1 (withdrawn)",
       "an account that is gone (01a22e4c)",
+      "Reach and orient, version 2, level L1",
+      "106 attempts, head a2169a95fa61af42\xE2\x80\xA6",
+      "0 attempts, head none",
+      "0 attempts, head none, its key lay there already",
+      "Local instructor",
+      "Demo",
       "from"};
   for (const auto& file : std::filesystem::directory_iterator(kTree / "scenarios/scoring")) {
     if (!file.path().filename().string().ends_with("metrics.cpp")) continue;
@@ -275,6 +303,43 @@ TEST_F(AllPages, NamesAndNotesStayWhateverTheySay) {
   const std::string roster = check_page(german_page("/roster")).by_id("people")->text;
   for (const char* own : {"Ready", "Not started", "Cohort"}) EXPECT_NE(roster.find(own), std::string::npos) << own;
   EXPECT_EQ(check_page(german_page("/grid", {{"programme", "Grid"}})).all("h1").at(0)->text, "Grid");
+}
+
+TEST_F(AllPages, OnlyTheProgramsOwnNamesAreTranslated) {
+  const PageLanguage german(kFolder, "de");
+  EXPECT_EQ(german.page(printed_html("Local instructor", "")), "<span>Lehrkraft vor Ort</span>");
+  EXPECT_EQ(german.page(printed_html("Local instructor")), "<span>Lehrkraft vor Ort</span>");
+  for (const std::string& name : {printed_html("Local instructor", "u-1"), printed_html("Demo", "u-1"),
+                                  printed_html("Demo"), printed_html("Ready", "")})
+    EXPECT_EQ(german.page(name), name);
+  EXPECT_EQ(PageLanguage(kFolder, "fr").page(printed_html("Demo", "")), "<span>D\xC3\xA9mo</span>");
+  EXPECT_NE(german
+                .words("certificate of 30 Nov 2026: 1 of the 16 attempts that it stands on was decided not passed by "
+                       "Local instructor on 30 Nov 2026: x")
+                .find("der Lehrkraft vor Ort"),
+            std::string::npos);
+  Frame frame = sample_frame();
+  frame.who = "Local instructor";
+  EXPECT_NE(german.page(cohort_page({}, frame)).find(">Local instructor<"), std::string::npos) << "an account's name";
+  frame.signed_in = false;
+  EXPECT_EQ(german.page(cohort_page({}, frame)).find("Local instructor"), std::string::npos);
+}
+
+TEST_F(AllPages, AMigrationIsToldInWordsAndANameIsNotCut) {
+  AuditEntry migrated, joined;
+  migrated.action = kActionMigrated;
+  migrated.detail = "106 attempts, head " + std::string(64, 'a') + kKeyLayThere;
+  joined.action = "group joined";
+  joined.detail = "Weiterbildung Viszeralchirurgie Herbst 2026";
+  AuditEntry begun = joined;
+  begun.detail = std::string(64, 'b') + " " + std::string(64, 'c');
+  AuditView view;
+  view.entries = {migrated, joined, begun};
+  const std::string page = PageLanguage(kFolder, "de").page(audit_page(view, sample_frame()));
+  for (const std::string& words :
+       {"106 Versuche, Kopf " + std::string(16, 'a') + "\xE2\x80\xA6, der Schl\xC3\xBCssel lag schon da", joined.detail,
+        std::string(16, 'b') + "\xE2\x80\xA6 " + std::string(16, 'c') + "\xE2\x80\xA6"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 /// Sources in a room of the tree, or that one.
@@ -538,6 +603,8 @@ TEST(Refusals, HaveATranslationAndKeepWhatWasTyped) {
           EXPECT_TRUE(asked.unknown.empty() && own != english && times(own, kTyped) == times(english, kTyped))
               << refusal.place << ": " << english << "\n"
               << language.code() << ": " << own;
+          const std::string alone = language.words("Not done."), why = language.words("Not done. " + english);
+          EXPECT_TRUE(why.starts_with(alone)) << refusal.place << ": " << why;
         }
       }
   EXPECT_GT(all, 200U);
@@ -570,6 +637,10 @@ TEST(Refusals, AreReadAsTheyStandOnPages) {
   EXPECT_EQ(german.words("Is there already as Ann, deactivated."), "Ist schon da als Ann, deaktiviert.");
   EXPECT_EQ(german.words("Not done. No certificate. Competence has not been shown: 3 attempts, none passed yet."),
             "Nicht ausgeführt. Kein Zertifikat. Das Können ist nicht gezeigt: 3 Versuche, noch keiner bestanden.");
+  EXPECT_EQ(german.words("Not done. r.db.2026-11-30T22-34-43.941Z.backup: the disk is full: no backup was made; make "
+                         "room on it."),
+            "Nicht ausgeführt. r.db.2026-11-30T22-34-43.941Z.backup: die Platte ist voll: es wurde keine Sicherung "
+            "gemacht; schaffen Sie Platz darauf.");
 }
 
 TEST_F(AllPages, AnAttemptsPageIsTranslatedInAFewMilliseconds) {
