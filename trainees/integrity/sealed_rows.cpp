@@ -88,8 +88,9 @@ std::map<std::string, std::string> digests_of(sqlite3* connection, const SealedT
 }
 
 bool erased_on_record(sqlite3* connection, const std::string& table, const std::string& uuid) {
-  sql::Statement entry(
-      connection, "SELECT 1 FROM audit u JOIN erasure e ON e.uuid = u.detail WHERE u.subject = ? AND u.action = ?");
+  sql::Statement entry(connection,
+                       "SELECT 1 FROM audit u JOIN erasure e ON e.uuid = u.detail WHERE u.subject = ? AND u.action = ?"
+                       " AND row_holds('erasure', e.id)");
   return entry.bind(uuid).bind(table + " erased").step();
 }
 
