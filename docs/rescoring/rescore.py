@@ -73,6 +73,10 @@ class Attempt:
         for event in self.events[from_ + 1:to]:
             index = event["object"] - context["first_object"]
             own.events.append(dict(event, object=index if 0 <= index < context["objects_total"] else -1))
+        for event in self.events[to:]:  # clips that came off later
+            index = event["object"] - context["first_object"]
+            if event["type"] == "CLIP_WASTED" and 0 <= index < context["objects_total"]:
+                own.events.append(dict(event, object=index, t=end))
         start = self.events[from_]["t"]
         own.samples = [s for s in self.samples if start <= s["t"] <= end]
         own.times = [s["t"] for s in own.samples]
@@ -349,6 +353,12 @@ def of_strands(value):
     return lambda attempt: value(attempt) if attempt.count("STRAND_DIVIDED") else None
 
 
+def strand_clearance_share(attempt):
+    asked_m = attempt.context.get("strand_lift_m", 0.006)
+    return sum(min(1, e["value"] / asked_m) for e in attempt.events
+               if e["type"] == "STRAND_DIVIDED" and e["severity"] != "major") / attempt.context.get("strands_total", 5)
+
+
 def safe_energy_share(attempt):
     total = 0.0
     objects = attempt.context["objects_total"]
@@ -461,6 +471,7 @@ METRICS = {
     "strands_lifted_share": of_strands(
         lambda a: sum(e["type"] == "STRAND_DIVIDED" and e["severity"] == "info" for e in a.events)
         / a.context.get("strands_total", 5)),
+    "strand_clearance_share": of_strands(strand_clearance_share),
     "spurted_ml": spurted_ml,
     "strand_current_s": of_strands(strand_current),
     "cut_area_share": gauze_metric(lambda a: sum_of(a, "SNIP")),

@@ -51,12 +51,13 @@ void require_finite(const ScoringContext& context) {
   bool finite = context.approach_T.allFinite();
   for (const auto& [key, member] : kNumbers) finite = finite && std::isfinite(context.*member);
   finite = finite && std::isfinite(context.room_share.value_or(0)) && std::isfinite(context.counted_hold_s) &&
-           std::isfinite(context.rise_s);
+           std::isfinite(context.rise_s) && std::isfinite(context.strand_lift_m) && context.strand_lift_m > 0;
   for (const Vec3& point : context.waypoints) finite = finite && point.allFinite();
   for (const ObjectBand& band : context.object_bands)
     finite = finite && std::isfinite(band.low_n) && std::isfinite(band.high_n);
   for (const auto& [low, high] : context.grip_windows) finite = finite && std::isfinite(low) && std::isfinite(high);
-  if (!finite) throw std::invalid_argument("scoring context holds a number that is not finite");
+  if (!finite)
+    throw std::invalid_argument("scoring context holds a number that is not finite, or a lift of strands of 0");
 }
 
 }  // namespace
@@ -92,6 +93,7 @@ ScoringContext scoring_context(const Exercise& exercise, const ExerciseLevel& le
   context.retract_height_m = exercise.retract_height_m;
   context.waypoints.push_back(board.start_T);
   kind_of(exercise).account(board, events, context);
+  kind_of(exercise).account_rules(exercise, context);
   for (std::size_t i = 0; i < exercise.stages.size(); ++i) {
     const Board& own = board.stages[i];
     const auto targets = static_cast<int>(own.targets.size());
@@ -132,6 +134,7 @@ Json json_of(const ScoringContext& context) {
   if (context.ring_on_wire) json["ring_on_wire"] = true;
   if (context.room_share) json["room_share"] = *context.room_share;
   if (context.strands_total != ScoringContext{}.strands_total) json["strands_total"] = context.strands_total;
+  if (context.strand_lift_m != ScoringContext{}.strand_lift_m) json["strand_lift_m"] = context.strand_lift_m;
   if (!context.stages.empty()) json["stages"] = Json::array();
   for (const ScoringContext& stage : context.stages) {
     Json own = json_of(stage);
@@ -160,6 +163,7 @@ ScoringContext context_of(const Json& json) {
   context.ring_on_wire = json.value("ring_on_wire", false);
   if (json.contains("room_share")) context.room_share = json.at("room_share").get<double>();
   context.strands_total = json.value("strands_total", context.strands_total);
+  context.strand_lift_m = json.value("strand_lift_m", context.strand_lift_m);
   for (const Json& own : json.value("stages", Json::array())) {
     context.stages.push_back(context_of(own));
     ScoringContext& stage = context.stages.back();

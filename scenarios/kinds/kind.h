@@ -66,6 +66,8 @@ struct KindDescription {
   std::vector<std::unique_ptr<ExerciseTask>> (*tasks)(const Exercise&, const ExerciseLevel&, const Board&);
   /// For scoring: objects asked for and done, and the ideal way past those that were done.
   void (*account)(const Board&, const std::vector<Event>&, ScoringContext&);
+  /// For scoring: what metrics need of the exercise's own rules.
+  void (*account_rules)(const Exercise&, ScoringContext&) = [](const Exercise&, ScoringContext&) {};
 };
 
 /// All kinds, in the order of their exercises.

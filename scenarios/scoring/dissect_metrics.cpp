@@ -12,6 +12,7 @@ void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, c
   std::vector<double> safe_s(objects), unsafe_s(objects);
   std::optional<double> spurts_s, blood_ml;
   int divided = 0, lifted = 0, late = 0;
+  double clearance = 0;
   for (const Event& event : events) {
     const auto object = static_cast<std::size_t>(event.object);
     if (event.type == event_type::kCurrentUsed && object < objects) safe_s[object] += event.value;
@@ -19,6 +20,7 @@ void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, c
     if (event.type == event_type::kStrandDivided) {
       ++divided;
       lifted += event.severity == Severity::kInfo;
+      if (event.severity != Severity::kMajor) clearance += std::clamp(event.value / context.strand_lift_m, 0.0, 1.0);
     }
     if (event.type == event_type::kSpurts) spurts_s = event.t_s;
     const bool bleeds = event.type == event_type::kBleeding || event.type == event_type::kSealed;
@@ -33,6 +35,7 @@ void add_dissect_metrics(const Trace& trace, const std::vector<Event>& events, c
   const auto of_divided = [&](double value) { return divided > 0 ? std::optional<double>(value) : std::nullopt; };
   sink.push_back({"safe_energy_share", of_divided(share), "1"});
   sink.push_back({"strands_lifted_share", of_divided(static_cast<double>(lifted) / context.strands_total), "1"});
+  sink.push_back({"strand_clearance_share", of_divided(clearance / context.strands_total), "1"});
   sink.push_back({"spurted_ml", blood_ml, "mL"});
   sink.push_back({"strand_current_s", of_divided(pedal_s / divided), "s"});
   sink.push_back({"sealed_late", of_divided(late), "1"});

@@ -214,6 +214,10 @@ constexpr MetricDefinition kCatalogue[] = {
      "mean over objects of CURRENT_USED / (CURRENT_USED + UNSAFE_CURRENT)", kMore, kErrors},
     {"strands_lifted_share", "1", "strands that were parted by current while lifted high enough, of those asked for",
      "count of STRAND_DIVIDED that is info / strands asked for", kMore, kErrors},
+    {"strand_clearance_share", "1",
+     "how far off the organ strands were when current parted them, over how far is asked for, at most 1 each; mean of "
+     "those asked for, 0 for one that tore",
+     "sum of min(1, STRAND_DIVIDED that is not major / lift asked for) / strands asked for", kMore, kErrors},
     {"spurted_ml", "mL", "blood lost by all vessels that spurted, as last told",
      "the last of SPURTS, BLEEDING and SEALED, once there is a SPURTS", kLess, kErrors},
     {"strand_current_s", "s", "time of the pedal while a strand was lit, mean over the strands that current parted",
@@ -312,6 +316,7 @@ void add_count_metrics(const std::vector<Event>& events, const ScoringContext& c
 
 std::vector<Event> events_of_stage(const std::vector<Event>& events, int stage, int first_object, int objects) {
   std::vector<Event> out;
+  bool over = false;
   for (const Event& event : events) {
     const bool begins = event.type == event_type::kStageBegun;
     const bool ends = event.type == event_type::kDone || event.type == event_type::kTimeout;
@@ -319,11 +324,17 @@ std::vector<Event> events_of_stage(const std::vector<Event>& events, int stage, 
     Event own = event;
     if (event.object >= 0) own.object -= first_object;
     if (own.object < 0 || own.object >= objects) own.object = -1;
+    if (over && (event.type != event_type::kClipWasted || own.object < 0)) continue;
+    if (over) {
+      own.t_s = out.back().t_s;
+      out.insert(out.end() - 1, own);
+      continue;
+    }
     if (out.empty()) own.type = event_type::kStart.name;
     if (begins && !out.empty()) own.type = event_type::kDone.name;
     if (begins) own.object = -1;
     out.push_back(own);
-    if (out.size() > 1 && (begins || ends)) break;
+    over = out.size() > 1 && (begins || ends);
   }
   return out;
 }

@@ -41,7 +41,8 @@ bool is_force_metric(std::string_view name);
 Trace cut_trace(const Trace& trace, double start_s, double end_s);
 
 /// Events of an operation's stage as those of an attempt: START where it began, DONE or TIMEOUT where the next one did
-/// or all ended, between them its own objects, counted from 0, and what names none. Empty: it never began.
+/// or all ended, between them its own objects, counted from 0, and what names none; last CLIP_WASTED of later clips
+/// that came off. Empty: it never began.
 std::vector<Event> events_of_stage(const std::vector<Event>& events, int stage, int first_object, int objects);
 
 /// Every metric of the catalogue, in its order; after them the stages' that are asked for. @param trace strictly

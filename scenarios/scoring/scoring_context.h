@@ -36,7 +36,8 @@ struct ScoringContext {
   std::optional<double> room_share;  ///< of the region, where the device can give the soft limit
   bool ring_on_wire = false;         ///< metrics of ring and wire are defined
   int objects_total = 0, objects_done = 0;
-  int strands_total = 5;  ///< of the objects, the first: strands to be divided
+  int strands_total = 5;         ///< of the objects, the first: strands to be divided
+  double strand_lift_m = 0.006;  ///< of the tip off the organ, when one is
 
   // An operation's stages, each graded as an attempt of its own; the numbers of its objects begin at 0 there.
   std::vector<ScoringContext> stages;

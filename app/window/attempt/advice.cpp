@@ -172,7 +172,8 @@ std::string next_for(const Advised& a, const DebriefRow& row) {
   if (m == "clip_errors") return words("Try next: go in deeper until the tips show beyond, and only then close.");
   if (m == "safe_energy_share")
     return words("Try next: lift, look, and only then press; let go as soon as the strand parts or it is dry.");
-  if (m == "strands_lifted_share") return words("Try next: lift each strand clear of the liver before the current.");
+  if (m == "strands_lifted_share" || m == "strand_clearance_share")
+    return words("Try next: lift each strand clear of the liver before the current.");
   if (m == "spurted_ml")
     return words("Try next: go straight to the vessel, press the tip on it, and stay until it is dry.");
   if (m == "strand_current_s")

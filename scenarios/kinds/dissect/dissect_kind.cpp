@@ -73,7 +73,11 @@ KindDescription dissect_kind() {
           .read_level = [](LevelKeys&, const Exercise&, ExerciseLevel&) {},
           .lay_out = lay_out_dissection,
           .tasks = one_task<DissectTask>,
-          .account = account_strands};
+          .account = account_strands,
+          .account_rules =
+              [](const Exercise& exercise, ScoringContext& context) {
+                context.strand_lift_m = own_rules<DissectRules>(exercise).lift_m;
+              }};
 }
 
 }  // namespace trocar

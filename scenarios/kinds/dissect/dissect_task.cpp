@@ -107,7 +107,8 @@ void DissectTask::follow_strands(const TissueFrame& frame, bool live, EventLog& 
     if (!parts || mark.duct >= rules_.strands || done_[static_cast<std::size_t>(mark.duct)]) continue;
     const bool torn = mark.kind == DuctMark::Kind::kTorn || !live;
     const bool good = !torn && gap_m_ >= rules_.lift_m;
-    log.add(event_type::kStrandDivided, good ? Severity::kInfo : Severity::kMinor, mark.duct, gap_m_, "m");
+    const Severity severity = torn ? Severity::kMajor : good ? Severity::kInfo : Severity::kMinor;
+    log.add(event_type::kStrandDivided, severity, mark.duct, gap_m_, "m");
     if (torn)
       blame({"A strand tore", "Lift gently, and let the current divide it."}, log);
     else if (!good)
