@@ -30,6 +30,7 @@ constexpr double kBlendTravel = 2e-3;    // m over which stiffness follows a cha
 constexpr double kIdleTurn = 0.009;      // rad a period that the force may turn as the proxy slides on: 0.5 deg
 constexpr double kRounding = 3e-3;       // m that the instrument moves for one rad more
 constexpr int kTurnHalvings = 5;         // of the way that the proxy slides
+constexpr double kMostChange = 300;      // N/s of what tissue does: 0.3 N a period of 1 ms
 constexpr double kParting = 0.05;        // s over which a contact that is none any more is let go (a choice)
 
 }  // namespace
@@ -58,6 +59,7 @@ ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, con
   if (newest.ring.count > 1) add_ring(X_TI, V_TI_T, newest.ring, result);
   add_parting(X_TI, result);
   if (glide_.force_share() < 1) fade(result);
+  if (law_ == ContactLaw::kProxy && patch.glide_s > 0) ease(X_TI, result);
   return result;
 }
 
@@ -142,6 +144,30 @@ void ContactRenderer::fade(ContactResult& result) {
   for (int i = 0; i < contacts_.count; ++i) contacts_.at[i].force_T *= share;
 }
 
+void ContactRenderer::ease(const Pose& X_TI, ContactResult& result) {
+  const Vec3 moved = X_TI.p - std::exchange(eased_tip_, X_TI.p);
+  const double lost = std::exchange(eased_stored_, result.stored_j) - result.stored_j;
+  const double change = (result.F_I_T.force - eased_.force).norm(), most = kMostChange * glide_.period_s();
+  const double share = change > most ? most / change : 1;
+  const Wrench felt = eased_ * (1 - share) + result.F_I_T * share;
+  const bool stronger = felt.force.norm() > result.F_I_T.force.norm();
+  // A force that lags does no more on the tool than the springs had stored that are gone.
+  eased_j_ = share < 1 ? eased_j_ + std::max(0.0, lost) : 0;
+  if (stronger) eased_j_ -= (felt.force - result.F_I_T.force).dot(moved);
+  if (share < 1 && (!stronger || eased_j_ > 0)) {
+    result.F_I_T = felt;
+    result.spring_I_T = eased_spring_ * (1 - share) + result.spring_I_T * share;
+    if (stronger) result.stored_j += eased_j_;
+    if (!result.contact) {
+      result.contact = result.tip_contact = true;
+      result.point_T = X_TI.p;
+      result.normal_T = felt.force.normalized();
+    }
+  }
+  eased_ = result.F_I_T;
+  eased_spring_ = result.spring_I_T;
+}
+
 ContactResult ContactRenderer::thesis_law(const Pose& X_TI, const ContactPatch& patch) {
   ContactResult result;
   double nearest = -1;
@@ -219,15 +245,17 @@ double ContactRenderer::turned() const {
 double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactPatch& patch) {
   double way = 0;
   const double stride = 0.5 * thinnest_m_;
-  for (int slides = 0, falls = 0; slides < kMaxSteps && falls < kMostFall;) {
-    // In the air, slid off an edge, it carries nothing however deep the instrument is: it falls until it lands.
-    const bool in_air = touch_count_ == 0;
-    if (!in_air && allowance <= kArrived) break;
-    ++(in_air ? falls : slides);
-    const Vec3 step = free_step(goal - proxy_);
+  double fall = stride;
+  for (int slides = 0, falls = 0; falls < kMostFall;) {
+    const Vec3 wish = goal - proxy_, step = free_step(wish);
     const double length = step.norm();
     if (length < kArrived) break;
-    double travel = std::min({length, stride, in_air ? stride : allowance});
+    // In the air, slid off an edge, or with walls beside it that do not hold it, it carries nothing however deep the
+    // instrument is: it falls until it lands.
+    const bool in_air = touch_count_ == 0 || (length > allowance && (wish - step).norm() < kArrived);
+    if (!in_air && (allowance <= kArrived || slides == kMaxSteps)) break;
+    ++(in_air ? falls : slides);
+    double travel = std::min({length, stride, in_air ? fall : allowance});
     const Vec3 along = step / length;
     proxy_ += travel * along;
     near_.travel(travel);
@@ -240,6 +268,9 @@ double ContactRenderer::slide(const Vec3& goal, double allowance, const ContactP
       way += travel;
     }
     project(patch, kSlideSlack);
+    // How far back it met something is only near the truth close to it: who would have to go back all the way tries
+    // less.
+    fall = in_air && travel < kArrived ? fall / 4 : stride;
     if (in_air && touch_count_ > 0) allowance = std::max(allowance, kIdleTravel);
   }
   // Sliding off a ridge leaves the proxy a hair above it: who carries the force is asked with a wider slack.

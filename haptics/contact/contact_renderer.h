@@ -61,6 +61,8 @@ class ContactRenderer {
     glide_.forget();
     friction_.reset();
     parting_share_ = 0;
+    eased_ = eased_spring_ = {};
+    eased_stored_ = eased_j_ = 0;
   }
 
   /// Another instrument takes the place of the one in use, where the proxy is: it must fill no more than that one did.
@@ -94,6 +96,8 @@ class ContactRenderer {
   /// What a new patch has no more, of what was pressed, is let go slowly: jaws that take a fold press on it still.
   void part_with_lost(const Pose& X_TI, const ContactPatch& patch);
   void add_parting(const Pose& X_TI, ContactResult& result);
+  /// Of tissue, what is felt changes by no more than so much a period, whatever its surface does: news is no blow.
+  void ease(const Pose& X_TI, ContactResult& result);
   /// Weakens everything by what is left of the force without new patches.
   void fade(ContactResult& result);
   ContactResult thesis_law(const Pose& X_TI, const ContactPatch& patch);
@@ -153,6 +157,9 @@ class ContactRenderer {
   Wrench parting_;       ///< of contacts that are none any more, about the tip, when they were lost
   double parting_share_ = 0, parting_j_ = 0;  ///< what is left of it, and of the energy that it held
   Vec3 parting_tip_ = Vec3::Zero();           ///< where the tip was a period ago
+  Wrench eased_, eased_spring_;               ///< what was felt of tissue in the last period, whole and of its springs
+  Vec3 eased_tip_ = Vec3::Zero();             ///< where the tip was then
+  double eased_stored_ = 0, eased_j_ = 0;     ///< what springs stored then, and have lost since the force lags
   std::uint64_t parted_stamp_ = 0;            ///< of the patch that was looked through last
   std::array<Touch, kMaxContacts> touch_{};
   int touch_count_ = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 
 #include "haptics/contact/contact_renderer.h"
@@ -106,6 +107,53 @@ TEST(GlidingHold, APressedPlaceThatIsNoContactAnyMoreIsLetGoSlowlyAndGivesNoEner
     }
     patch->count = count;
     ++patch->stamp;
+  }
+}
+
+/// Tissue that is suddenly 2 mm higher, or gone: what is felt follows within 0.3 N a period, and a hand that goes with
+/// it gets no more than was stored.
+TEST(GlidingContact, TissueThatLeapsIsNoBlow) {
+  const ToolShape tool;
+  const auto patch = std::make_unique<ContactPatch>();
+  const auto lay = [&](double z) {
+    const std::uint64_t stamp = patch->stamp;
+    test::flat_patch(*patch, z, 0.04, 6);
+    patch->material[0] = {2000, 0, 0, 0};
+    patch->glide_s = kGlide_s;
+    patch->moving = true;
+    patch->velocity.fill(Vec3::Zero());
+    patch->stamp = stamp + 1;
+    patch->topology++;
+  };
+  for (const double speed : {0.0, 0.3}) {
+    ContactRenderer renderer{ContactLaw::kProxy, tool};
+    Vec3 tip(0, 0, tool.radius_m);
+    ContactResult last;
+    double most_change = 0, work = 0;
+    const auto run = [&](int periods, double way) {
+      for (int i = 0; i < periods; ++i) {
+        const Vec3 before = last.F_I_T.force;
+        tip.z() += way;
+        last = renderer.update(test::tip_down(tip), {}, *patch);
+        most_change = std::max(most_change, (last.F_I_T.force - before).norm());
+        work += last.F_I_T.force.z() * way;
+      }
+    };
+    lay(0);
+    run(20, 0);
+    lay(0.002);
+    run(40, 0);
+    EXPECT_NEAR(last.F_I_T.force.z(), 4, 0.2);
+    EXPECT_LE(most_change, 0.3 + 1e-9);
+    const double stored = last.stored_j;
+    most_change = work = 0;
+    lay(-0.050);
+    run(40, speed * 1e-3);
+    EXPECT_LE(work, stored + 1e-9) << speed;
+    EXPECT_EQ(last.F_I_T.force, Vec3::Zero()) << speed;
+    if (speed == 0) {
+      EXPECT_LE(most_change, 0.3 + 1e-9);
+    }
   }
 }
 
