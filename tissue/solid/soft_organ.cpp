@@ -256,7 +256,10 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   }
   out.first_vertex = static_cast<std::int32_t>(rest()->vertices.size());
   LatticeChange change;
-  if (!lattice_.cut(traced.cut, change)) return out.refusal = CutRefusal::kPieceOff, out;
+  if (!lattice_.cut(traced.cut, change)) {
+    const bool beside = runs_beside_wound(*surface_, surface_->inside, traced.cut);
+    return out.refusal = beside ? CutRefusal::kBesideCut : CutRefusal::kPieceOff, out;
+  }
   std::vector<SoftCellChange> cells;
   for (const auto& [number, parent] : change.cells) {
     const LatticeCell& cell = lattice_.lattice().cells[static_cast<std::size_t>(number)];
@@ -265,6 +268,7 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   if (!cells.empty()) solid_.sever(change.node_parent, cells);
   part_of_node_.resize(part_of_node_.size() + change.node_parent.size(), part);
   if (bed_) bed_->follow_cut(lattice_);
+  if (beside_) beside_->follow_cut(lattice_);
   cuts_.push_back(cut_bytes(traced.cut));
   added_ = std::move(change.added);
   embedded_ = EmbeddedSurface(lattice_.lattice(), lattice_.rest());
@@ -274,8 +278,12 @@ OrganCut SoftOrgan::cut(const Blade& blade, const CutTracingOptions& options) {
   felt_.resize(surface_->vertices.size());
   std::copy(surface_->vertices.begin() + static_cast<std::ptrdiff_t>(known), surface_->vertices.end(),
             felt_.begin() + static_cast<std::ptrdiff_t>(known));
-  energy_ = solid_.energy_j() + (bed_ ? bed_->energy_j() : 0);
+  energy_ = energy_j();
   return out;
+}
+
+double SoftOrgan::energy_j() const {
+  return solid_.energy_j() + (bed_ ? bed_->energy_j() : 0) + (beside_ ? beside_->energy_j() : 0);
 }
 
 Vec3 SoftOrgan::place_at(const MaterialPoint& place, std::span<const Vec3> vertices) const {
@@ -450,11 +458,14 @@ void SoftOrgan::step(const SolvedContacts& contacts, const Vec3* tip_T, std::spa
   }
   const std::size_t own = springs.size();
   springs.insert(springs.end(), more.begin(), more.end());
+  solid_.ties().clear();
   if (bed_) bed_->bind(lattice_, *surface_, solid_);
+  if (beside_) beside_->press(lattice_, *surface_, solid_);
   solid_.step(springs);
   if (bed_) bed_->wear(solid_, options_.solid.step_s);
+  if (beside_) beside_->bear(solid_);
   for (std::size_t s = own; s < springs.size(); ++s) more[s - own].force_n = springs[s].force_n;
-  const double before = std::exchange(energy_, solid_.energy_j() + (bed_ ? bed_->energy_j() : 0));
+  const double before = std::exchange(energy_, energy_j());
   given_ = std::max(0.0, before - energy_);
   force_ = 0;
   for (std::size_t i = 0; i < pressed.size(); ++i) force_ += pressed[i].force = springs[i].force_n;

@@ -11,7 +11,8 @@
 // the truth (tissue.md 2.4). docs/tissue.md tells why.
 //
 // Two organs may be parts of one: their lattices beside each other (lattice.h), their closed surfaces one behind the
-// other, each part of its own material, bound by a bed (organ_bed.h) and solved together.
+// other, each part of its own material, bound by a bed (organ_bed.h) and solved together. Organs beside it that do not
+// give way stop it (neighbour_contact.h).
 //
 // Frame T, SI. Thread: tissue task. Same input, same bytes.
 #pragma once
@@ -29,6 +30,7 @@
 #include "tissue/mesh/surface/triangle_surface.h"
 #include "tissue/solid/cut_lattice.h"
 #include "tissue/solid/embedded_surface.h"
+#include "tissue/solid/neighbour_contact.h"
 #include "tissue/solid/organ_bed.h"
 #include "tissue/solid/soft_solid.h"
 #include "tissue/solid/stiff_ball.h"
@@ -76,8 +78,15 @@ class SoftOrgan {
   /// @param more springs of this step besides the contacts': a grip. Their forces are filled in.
   void step(const SolvedContacts& contacts, const Vec3* tip_T, std::span<SoftSpring> more = {});
 
-  /// Moves the bed to so far from where it lay at first.
-  void carry(const Vec3& shift_T) { energy_ += solid_.carry(shift_T); }
+  /// What does not give way beside it, closed surfaces, from the next step on: it is stopped by them.
+  void set_beside(const TriangleSurface& still_T) { beside_.emplace(still_T, lattice_); }
+  const NeighbourContact* beside() const { return beside_ ? &*beside_ : nullptr; }  ///< nullptr: none was named
+
+  /// Moves the bed, and what is beside it, to so far from where it lay at first.
+  void carry(const Vec3& shift_T) {
+    energy_ += solid_.carry(shift_T);
+    if (beside_) energy_ += beside_->carry(shift_T);
+  }
 
   /// Cuts what lies within a blade, as the organ lies now. A refused cut leaves everything as it was.
   OrganCut cut(const Blade& blade, const CutTracingOptions& options = {});
@@ -164,7 +173,8 @@ class SoftOrgan {
   /// Of the place within a step of the loop, m/N. Keeps what the lattice has of it for the next solve.
   double compliance_at(const Part& of, double modulus_pa, const NodeShares& place, const Vec3& direction,
                        double force_n);
-  void support();  ///< springs to the outside
+  void support();           ///< springs to the outside
+  double energy_j() const;  ///< of solid, bed and what presses beside it
   void find_felt(std::span<const Pressed> pressed, const Vec3* tip_T);
 
   std::vector<Part> parts_;
@@ -174,13 +184,14 @@ class SoftOrgan {
   SoftSolid solid_;
   std::vector<std::int32_t> part_of_node_;
   std::optional<OrganBed> bed_;
+  std::optional<NeighbourContact> beside_;
   std::vector<std::string> cuts_;
   std::vector<VertexOrigin> added_;
   std::vector<ShapeField> fields_;
   SurfacePtr surface_;
   std::vector<Vec3> felt_;
   double stiffness_ = 0, force_ = 0, given_ = 0;
-  double energy_ = 0;  ///< of solid and bed after the last step, J
+  double energy_ = 0;  ///< energy_j() after the last step
   struct Memory {
     std::array<double, 2> held{};          ///< N, by the branches
     double elastic_n = 0;                  ///< of the last step

@@ -75,11 +75,12 @@ struct SoftSpring {
 struct SoftTie {
   static constexpr std::size_t kNodes = 16;  ///< eight of each place
   std::array<std::int32_t, kNodes> node{};
-  std::array<float, kNodes> share{};  ///< > 0 of the one place, < 0 of the other, sum 0; all 0: no bond
-  Vec3f normal = Vec3f::UnitZ();      ///< unit
-  float all_n_per_m = 0;              ///< in every direction, and
-  float along_n_per_m = 0;            ///< along the normal besides
-  Vec3f force_n = Vec3f::Zero();      ///< on the one place, its opposite on the other: before the step, then after it
+  /// > 0 of the one place, < 0 of the other, sum 0; sum 1: what is outside holds the one; all 0: no bond
+  std::array<float, kNodes> share{};
+  Vec3f normal = Vec3f::UnitZ();  ///< unit
+  float all_n_per_m = 0;          ///< in every direction, and
+  float along_n_per_m = 0;        ///< along the normal besides
+  Vec3f force_n = Vec3f::Zero();  ///< on the one place, its opposite on the other: before the step, then after it
 };
 
 class SoftSolid {
