@@ -66,8 +66,8 @@ struct TissueMark {
 /// What has been done to an organ so far, and how it stands.
 struct SurgeryState {
   std::int32_t cuts = 0, tears = 0, clips = 0;
-  std::int32_t refusals = 0;  ///< closings of blades or clip applier that did nothing
-  std::int32_t refusal = 0;   ///< of the last closing: closing_words() (thin/duct_system.h); 0: it did what it should
+  std::int32_t refusals = 0;  ///< closings of blades or clip applier that did nothing, clips that came off a duct
+  std::int32_t refusal = 0;   ///< of the last: closing_words() (thin/duct_system.h); 0: it did what it should
   std::int32_t wounds = 0;
   std::int32_t bile_leaks = 0;  ///< places from which bile comes now
   double blood_ml = 0, blood_ml_per_min = 0, sucked_ml = 0;

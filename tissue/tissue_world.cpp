@@ -19,12 +19,6 @@ constexpr double kLaidOff = 1;         // s after which a needle that was let go
 constexpr double kDry = 0.05;          // of a bleeder's lumen: less is closed, a four-hundredth of its flow
 constexpr double kBed = 2e-12;         // m3/(Pa s) of the capillaries behind a vessel; unchecked
 
-std::array<Vec3, 3> vertices_at(const std::array<std::int32_t, 3>& corner, const TriangleSurface& surface) {
-  std::array<Vec3, 3> at;
-  for (std::size_t i = 0; i < 3; ++i) at[i] = surface.vertices[static_cast<std::size_t>(corner[i])];
-  return at;
-}
-
 }  // namespace
 
 TissueWorld::TissueWorld(const TissueSetup& setup)
@@ -51,6 +45,7 @@ TissueWorld::TissueWorld(const TissueSetup& setup)
       adjacent_T_.triangles.push_back({a - own, b - own, c - own});
       adjacent_material_.push_back(setup.triangle_material.empty() ? 0 : setup.triangle_material[t]);
     }
+    if (!adjacent_T_.triangles.empty()) soft_->set_beside(adjacent_T_);
     if (!setup.ducts.empty()) {
       ducts_.emplace(setup.ducts, *soft_, options.tool_radius_m);
       last_topology_ = soft_->topology();
@@ -293,6 +288,9 @@ void TissueWorld::tell_vessels() {
       case DuctChange::Kind::kSealed:
         actions_->bleeding().clip_vessel(vessel_[duct], at, change.share);
         break;
+      case DuctChange::Kind::kUnclipped:
+        actions_->bleeding().unclip_vessel(vessel_[duct], at);
+        break;
       case DuctChange::Kind::kNicked:
         // A hole of that share of its lumen: two ends that are otherwise closed. What would flow on is not missed.
         open();
@@ -479,7 +477,7 @@ void TissueWorld::follow(std::span<const SurfacePlace> places_T) {
     double least = std::numeric_limits<double>::infinity();
     Followed nearest{{}, {}, place};
     for (const auto& corner : rest.triangles) {
-      const std::array<Vec3, 3> at = vertices_at(corner, rest);
+      const std::array<Vec3, 3> at = rest.corners(corner);
       const Vec3 foot = closest_point_on_triangle(place.point_T, at);
       const double distance = (foot - place.point_T).squaredNorm();
       if (distance >= least) continue;
@@ -503,7 +501,7 @@ void TissueWorld::tell_followed() {
     }
     // A surface's normal goes with the inverse transpose of how the tissue is stretched.
     const Mat3 F = soft_->gradient_within(f.rest.point_T);
-    frame_.place[i] = {interpolate(f.weight, vertices_at(f.corner, *soft_->surface())),
+    frame_.place[i] = {interpolate(f.weight, soft_->surface()->corners(f.corner)),
                        (F.inverse().transpose() * f.rest.normal_T).normalized()};
   }
 }

@@ -36,8 +36,9 @@ struct SoftSetup {
 };
 
 struct TissueSetup {
-  const TriangleSurface* organ_T = nullptr;  ///< with the adjacent organs; must outlive the world; nullptr: none
-  SurfacePtr seen_T = nullptr;               ///< what pictures show of it: the organ alone
+  /// With the adjacent organs, which stop one that gives way; must outlive the world; nullptr: none
+  const TriangleSurface* organ_T = nullptr;
+  SurfacePtr seen_T = nullptr;  ///< what pictures show of it: the organ alone
   ContactMaterial organ;
   /// Of each triangle: 0 the organ, n the n-th of `adjacent`; empty: all the organ. Must outlive the world.
   std::span<const std::int32_t> triangle_material = {};

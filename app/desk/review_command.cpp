@@ -27,6 +27,8 @@
 #include "haptics/input_error.h"
 #include "trainees/desk/server/desk_server.h"
 #include "trainees/exchange/sync/replica_keeper.h"
+#include "trainees/files/free_room.h"
+#include "trainees/files/size_text.h"
 #include "trainees/live/live_stations.h"
 #include "trainees/records/accounts.h"
 #include "trainees/records/attempt_store.h"
@@ -90,6 +92,7 @@ std::shared_ptr<const review::PageLanguages> shipped_languages() {
   }
 }
 
+constexpr std::uintmax_t kRoomToWrite = 40'000'000;  // bytes: the log grows to 33 MB before it is copied back
 constexpr std::chrono::milliseconds kTurn{100};
 constexpr int kLast_turns = 30;
 
@@ -188,6 +191,12 @@ int review_demo(const ReviewDemoOptions& options, std::ostream& out, std::ostrea
   return 0;
 }
 
+std::string little_room(const std::filesystem::path& folder, std::uintmax_t free_bytes) {
+  if (free_bytes >= kRoomToWrite) return "";
+  return folder.string() + ": the disk is nearly full, " + size_text(free_bytes) +
+         " are free: the desk can be read, but may not keep what is written there. Make room on it";
+}
+
 int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before any thread
   const std::filesystem::path file = served_database(options, err);
@@ -236,6 +245,9 @@ int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostr
   desk.start();
   if (keeper) keeper->start();
   recordings.begin();
+  const std::filesystem::path folder = file.parent_path();
+  if (const std::string little = little_room(folder, room_free(folder)); !little.empty())
+    err << "WARNING: " << little << ".\n";
   tell(desk, options, out, err);
   // The page that says that the demo is gone still fetches its style.
   for (int left = kLast_turns; left > 0 && !interrupt.seen(); left -= gone ? 1 : 0) std::this_thread::sleep_for(kTurn);

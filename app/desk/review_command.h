@@ -2,6 +2,7 @@
 // and EnvironmentError leave as they are.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -21,6 +22,9 @@ struct ReviewServeOptions {
   bool recordings = false;  ///< fetches recordings too, with `from`
   bool demo = false;        ///< the invented cohort, made when it is not there yet
 };
+
+/// What to say of a disk on which a desk can be read but may keep nothing; "" where there is room.
+std::string little_room(const std::filesystem::path& folder, std::uintmax_t free_bytes);
 
 /// Serves the desk until Ctrl-C or SIGTERM. Its address is the result. @return exit code 0
 int review_serve(const ReviewServeOptions& options, std::ostream& out, std::ostream& err);

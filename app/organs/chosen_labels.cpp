@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -93,17 +94,31 @@ bool too_small(const LabelMap& map, const Segment& segment, bool only_largest) {
   }
 }
 
-void refuse_twice(const std::vector<ChosenLabel>& chosen, const std::string& file) {
+/// "3 \"Liver\"", "3 \"Liver\" (of a.nii.gz)"
+std::string told_label(const Segment& segment, const std::map<int, OrganSource>& origin) {
+  const auto own = origin.find(segment.number);
+  return std::to_string(segment.number) + " \"" + segment.name + "\"" +
+         (own == origin.end() ? "" : " (of " + own->second.file + ")");
+}
+
+std::string layer_and_number_of(const Segment& segment) {
+  return std::to_string(segment.layer) + ":" + std::to_string(segment.number);
+}
+
+void refuse_twice(const std::vector<ChosenLabel>& chosen, const std::string& file,
+                  const std::map<int, OrganSource>& origin) {
   std::set<std::pair<std::size_t, int>> seen;
-  std::set<std::string> names;
+  std::map<std::string, Segment> names;
   for (const ChosenLabel& label : chosen) {
-    const std::string name = file_name_of(label.segment);
-    if (!seen.insert({label.segment.layer, label.segment.number}).second)
-      throw InputError(file + ": --label: label " + std::to_string(label.segment.number) + " was asked for twice");
-    if (!names.insert(name).second)
-      throw InputError(file + ": two of the labels would both be written as \"" + name +
-                       "\"; import each by itself: --label " + std::to_string(label.segment.layer) + ":" +
-                       std::to_string(label.segment.number) + " and the other");
+    const Segment& segment = label.segment;
+    if (!seen.insert({segment.layer, segment.number}).second)
+      throw InputError(file + ": --label: label " + std::to_string(segment.number) + " was asked for twice");
+    const auto [other, fresh] = names.emplace(file_name_of(segment), segment);
+    if (!fresh)
+      throw InputError(file + ": labels " + told_label(other->second, origin) + " and " + told_label(segment, origin) +
+                       " would both be written as \"" + other->first + "\"; import each by itself: --label " +
+                       layer_and_number_of(other->second) + ", and under another -o --label " +
+                       layer_and_number_of(segment));
   }
 }
 
@@ -115,7 +130,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const LabelMap& map, const std::string& file,
-                                       std::vector<std::string>& decisions) {
+                                       std::vector<std::string>& decisions, const std::map<int, OrganSource>& origin) {
   const NamedTable named = named_table(options.label_table);
   if (named.table != nullptr) require_agreement(map, *named.table, file);
   const auto choose = [&](const std::string& wanted) { return chosen_label(map, file, named, wanted); };
@@ -141,7 +156,7 @@ std::vector<ChosenLabel> choose_labels(const OrganImportOptions& options, const 
   } else {
     for (const std::string& wanted : options.label) chosen.push_back(choose(wanted));
   }
-  refuse_twice(chosen, file);
+  refuse_twice(chosen, file, origin);
   tell_conflicts(map, chosen, decisions);
   return chosen;
 }

@@ -58,7 +58,7 @@ void add_label_options(ImportArguments& c, CLI::App& import) {
   import.add_option("--series", c.series, "Which of several DICOM series (numbers: organ inspect)")
       ->check(CLI::Range(1, 100000))
       ->group(group);
-  import.add_flag("--largest-part", c.import.largest_only, "Keep nothing but the largest part of a label")
+  import.add_flag("--largest-part", c.import.largest_only, "Keep nothing but the largest part of a label or a surface")
       ->group(group);
   import
       .add_option("--subject", c.import.subject,
@@ -88,7 +88,7 @@ void add_surface_options(ImportArguments& c, CLI::App& import) {
   const char* group = "Surfaces";
   import
       .add_option("--unit", c.import.surface.unit,
-                  "Length unit of the file: mm, cm or m; of a volume that says none also dm, um")
+                  "Length unit of the file: mm, cm, m or um; of a volume that says none also dm")
       ->group(group);
   import.add_option("--frame", c.import.surface.frame, "What x, y, z of the file point at: RAS, LPS, ...")
       ->group(group);

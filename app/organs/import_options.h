@@ -47,7 +47,7 @@ struct OrganImportOptions {
   ThresholdOptions threshold;
   SurfaceChoices surface;
   int triangles = 6000;
-  bool largest_only = false;     ///< nothing but the largest part of a label
+  bool largest_only = false;     ///< nothing but the largest part of a label or a surface
   double lattice_mm = 0;         ///< edge of the lattice's cells; 0: no lattice
   double tetrahedra_mm = 0;      ///< size of the tetrahedra; 0: none
   std::string output;            ///< NAME, or NAME.organ.toml, or NAME.scene.toml

@@ -1,6 +1,7 @@
 #include "app/organs/organ_export.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "app/session/setup/scene.h"
 #include "haptics/input_error.h"
 #include "haptics/utf8.h"
+#include "tissue/imaging/labels/segment.h"
 #include "tissue/mesh/files/surface_writer.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/staged_file.h"
@@ -34,11 +36,16 @@ std::string made_of(const Organ& organ) {
                   organ.licence + (organ.credit.empty() ? "" : ", " + organ.credit));
 }
 
-/// @param what that named it, for the message.
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// @param name in any case. @param what that named it, for the message.
 template <typename Format>
 const Format& format_named(const std::map<std::string, Format>& formats, const std::string& name,
                            const std::string& what) {
-  const auto found = formats.find(name);
+  const auto found = formats.find(lower_case(name));
   if (found != formats.end()) return found->second;
   std::string known;
   for (const auto& [format, unused] : formats) known += (known.empty() ? "" : ", ") + format;
@@ -47,7 +54,8 @@ const Format& format_named(const std::map<std::string, Format>& formats, const s
 
 std::vector<SurfacePartOut> parts_of(const std::vector<const Organ*>& organs) {
   std::vector<SurfacePartOut> parts;
-  for (const Organ* organ : organs) parts.push_back({harmless(organ->name), made_of(*organ), &organ->surface});
+  for (const Organ* organ : organs)
+    parts.push_back({harmless(organ->name), harmless(organ->material), made_of(*organ), &organ->surface});
   return parts;
 }
 
@@ -128,7 +136,7 @@ void export_folder(const std::vector<const Organ*>& organs, const OrganExportOpt
 void export_surfaces(const std::vector<const Organ*>& organs, const OrganExportOptions& options, std::ostream& out) {
   const std::string suffix = options.output.extension().string();
   if (suffix.empty()) return export_folder(organs, options, out);
-  if (written_tetrahedra().contains(suffix.substr(1)))
+  if (written_tetrahedra().contains(lower_case(suffix.substr(1))))
     throw InputError(options.output.string() + ": holds tetrahedra: give their size, --tetrahedra 8");
   const SurfaceFormat& format = format_named(written_formats(), suffix.substr(1), options.output.string());
   if (organs.size() > 1 && !format.many)
@@ -136,6 +144,17 @@ void export_surfaces(const std::vector<const Organ*>& organs, const OrganExportO
                      ": give a folder, NAME.glb or NAME.obj, or name one organ behind #");
   require_new(options.output);
   write({{options.output, format.bytes(parts_of(organs))}}, out);
+}
+
+void note_licences(const std::vector<const Organ*>& organs, std::ostream& err) {
+  constexpr std::size_t kListed = 4;
+  std::vector<std::string> without;
+  for (const Organ* one : organs)
+    if (!has_licence(one->licence)) without.push_back(one->name);
+  if (!without.empty())
+    err << "note: " << listed_words(without, kListed)
+        << (without.size() == 1 ? " has no licence: it may not be passed on\n"
+                                : " have no licence: they may not be passed on\n");
 }
 
 }  // namespace
@@ -146,9 +165,8 @@ int organ_export(const OrganExportOptions& options, std::ostream& out, std::ostr
   std::vector<const Organ*> organs{&organ};
   if (without_subject(given) == given)  // a scene without # is all of it
     for (const Organ& adjacent : organ.adjacent) organs.push_back(&adjacent);
-  for (const Organ* one : organs)
-    if (!has_licence(one->licence)) err << "note: " << one->name << " has no licence: it may not be passed on\n";
   options.tetrahedra_mm ? export_tetrahedra(organs, options, out) : export_surfaces(organs, options, out);
+  note_licences(organs, err);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "tissue/imaging/dicom/dicom_segmentation.h"
 #include "tissue/imaging/dicom/segment_layers.h"
 #include "tissue/imaging/labels/label_grid.h"
+#include "tissue/organ/organ_set.h"
 #include "tissue/organ/surface_import.h"
 
 namespace trocar {
@@ -195,6 +196,13 @@ std::string no_such_file(const OrganFiles& all, const std::vector<OrganFile>& fi
 
 }  // namespace
 
+void refuse_own_manifest(const std::string& input) {
+  const bool scene = input.ends_with(kOrganSetSuffix);
+  if (!scene && !input.ends_with(kOrganSuffix)) return;
+  throw InputError(input + ": is " + (scene ? "a scene" : "an organ") +
+                   " of Trocar already: `trocar organ info` says what it is, `trocar organ export` gives its surface");
+}
+
 std::string plain_stem(const fs::path& path) {
   const std::string file = path.filename().string();
   for (const std::string_view suffix : {".nii.gz", ".seg.nrrd", ".hdr.gz"})
@@ -204,6 +212,10 @@ std::string plain_stem(const fs::path& path) {
 
 std::vector<std::string> OrganFiles::asked(const std::vector<OrganFile>& files,
                                            const OrganImportOptions& options) const {
+  const bool by_number = std::any_of(options.label.begin(), options.label.end(), [&](const std::string& word) {
+    return word.find_first_not_of("0123456789:") == std::string::npos && find_file(files, word) == files.end();
+  });
+  if (by_number && &files == &volumes) return {};
   if (!options.label.empty() || options.all || options.name.empty()) return options.label;
   if (find_file(files, options.name) != files.end()) return {options.name};
   if (files.size() < 3) return {};  // an image and its mask, which --name names

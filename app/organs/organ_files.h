@@ -34,7 +34,7 @@ struct OrganFiles {
   std::unique_ptr<UnpackedZip> zip{};  ///< keeps the unpacked files
 
   /// Names of the files that are asked for, nothing for all: by --label; without it and --all by --name, which of
-  /// several files must be one.
+  /// several files must be one. A number of --label that no mask is called counts the labels of all of them.
   /// @throws InputError listing the names when none of three or more files is called so
   std::vector<std::string> asked(const std::vector<OrganFile>& files, const OrganImportOptions& options) const;
   /// What is asked for by name; all when nothing is.
@@ -57,6 +57,9 @@ struct CombinedMasks {
 /// mask that marks a voxel
 CombinedMasks combined_masks(const OrganFiles& files, const std::vector<std::string>& wanted,
                              const VolumeReading& reading, const Progress& progress);
+
+/// @throws InputError when the input is an organ or a scene of ours, which is no source, saying what takes it
+void refuse_own_manifest(const std::string& input);
 
 /// "liver" from "dir/liver.nii.gz".
 std::string plain_stem(const std::filesystem::path& path);

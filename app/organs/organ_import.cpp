@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <ostream>
 
 #include "app/organs/chosen_labels.h"
@@ -19,6 +20,8 @@
 #include "tissue/imaging/labels/one_layer.h"
 #include "tissue/imaging/phantom/phantom_labels.h"
 #include "tissue/imaging/volumes/volume_reader.h"
+#include "tissue/mesh/files/surface_pieces.h"
+#include "tissue/mesh/files/winding.h"
 #include "tissue/organ/organ_compiler.h"
 #include "tissue/organ/scene_compiler.h"
 #include "tissue/organ/surface_import.h"
@@ -88,6 +91,22 @@ void name_organ(const OrganNaming& naming, OrganManifest& manifest) {
   manifest.material = naming.material;
 }
 
+/// Of a mask among several, of the label map else.
+std::string source_file_of(const ImportSource& source, int label) {
+  const auto own = source.origin.find(label);
+  return own == source.origin.end() ? source.file : own->second.file;
+}
+
+/// What keeps a label from becoming an organ, with the file before it.
+template <typename Work>
+auto with_file_named(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+}
+
 WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
                            std::vector<std::string> decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
@@ -97,7 +116,8 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
   const LabelVolume& layer = source.map.layers[label.segment.layer];
   const MeshFit fit = options.synthetic ? MeshFit::kAlongNormals : MeshFit::kOntoBends;
   const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress, fit};
-  CompiledOrgan organ = compile_label(layer, label.segment.number, how);
+  CompiledOrgan organ = with_file_named(source_file_of(source, label.segment.number),
+                                        [&] { return compile_label(layer, label.segment.number, how); });
   manifest.mesh = std::move(organ.facts);
   manifest.decisions = untold(decisions, manifest.mesh.repairs);
   std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
@@ -118,7 +138,8 @@ SurfaceImportOptions surface_options(const OrganImportOptions& options) {
                            .part = asked.part,
                            .organ = options.name,
                            .fill_holes_mm = asked.fill_holes_mm,
-                           .wrap = {}};
+                           .wrap = {},
+                           .only_largest = options.largest_only};
   if (asked.wrap) how.wrap = WrapSettings{.alpha_mm = asked.wrap_alpha_mm};
   return how;
 }
@@ -127,6 +148,17 @@ ImportedSurface read_surface(const OrganImportOptions& options, const fs::path& 
   SurfaceImportOptions how = surface_options(options);
   if (how.organ.empty()) how.organ = naming.name;
   return import_surface(path, how, options.progress);
+}
+
+/// Which cavities stay: all of a file that our own export wrote, else those in which another organ lies, as of labels.
+/// @param others a point within each piece of the other organs
+void settle(ImportedSurface& source, const std::vector<Vec3>& others) {
+  const bool own = !source.name.empty();
+  settle_cavities(source, [&](const TriangleSurface& cavity) {
+    const Eigen::AlignedBox3d box = cavity.bounds();
+    return own || std::any_of(others.begin(), others.end(),
+                              [&](const Vec3& point) { return box.contains(point) && encloses(cavity, point); });
+  });
 }
 
 CompileOptions surface_compiling(const OrganImportOptions& options) {
@@ -140,11 +172,12 @@ CompiledMember surface_member(const OrganImportOptions& options, const fs::path&
   const OrganSource origin{path.filename().string(), digest::of_file(path), "surface", source.unit, {}, "", ""};
   OrganManifest manifest = common_manifest(options, origin);
   name_organ(naming, manifest);
-  manifest.decisions = source.decisions;
+  manifest.decisions = source.warnings;
+  append(manifest.decisions, source.decisions);
   append(manifest.decisions, naming.decisions);
-  append(manifest.decisions, source.warnings);
   organ.facts.repairs.insert(organ.facts.repairs.begin(), source.repairs.begin(), source.repairs.end());
   for (const double volume : source.lost_volumes_m3) organ.facts.lost.push_back({"part", 0, volume * 1e6});
+  for (const double volume : source.filled_volumes_m3) organ.facts.added.push_back({"cavity", 0, volume * 1e6});
   manifest.mesh = std::move(organ.facts);
   for (SideFile& file : volume_meshes(options, stem, organ.surface, {}, manifest)) files.push_back(std::move(file));
   return {std::move(manifest), std::move(organ.surface)};
@@ -155,8 +188,15 @@ WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::p
     throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
   const std::string by_default =
       options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part});
-  const OrganNaming naming = name_surface(options, by_default);
-  const ImportedSurface source = read_surface(options, path, naming);
+  OrganNaming naming = name_surface(options, by_default);
+  ImportedSurface source = read_surface(options, path, naming);
+  settle(source, {});
+  if (!source.name.empty() && options.surface.part.empty()) {
+    const std::string own = file_name_of({0, 0, source.name});
+    naming = name_surface(options, own, options.name.empty() ? source.material : "");
+    if (naming.name != by_default && options.name.empty())
+      naming.decisions.push_back("called \"" + own + "\" as a comment of our own export says");
+  }
   WrittenOrgans written;
   written.organs.push_back(surface_member(
       options, path, naming, source, compile_surface(source.surface, surface_compiling(options)), stem, written.files));
@@ -253,8 +293,10 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   if (flat)
     for (Segment& segment : segments) segment.layer = 0;
   const LabelMap& map = flat ? *flat : source.map;
-  CompiledScene scene =
-      compile_scene(map, requests_of(options, segments), {{.only_largest = options.largest_only}, options.progress});
+  CompiledScene scene = with_file_named(source.file, [&] {
+    return compile_scene(map, requests_of(options, segments),
+                         {{.only_largest = options.largest_only}, options.progress});
+  });
   WrittenOrgans written;
   for (std::size_t n = 0; n < labels.size(); ++n)
     written.organs.push_back(member_of(options, label_manifest(options, source, labels[n]),
@@ -269,28 +311,54 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
   return written;
 }
 
-/// Several surfaces as one scene, each called like its file. What lies against what is told by the triangles that they
-/// have in common, and by nothing else.
+/// What is asked for of each surface of a scene, called like its file.
+std::vector<OrganImportOptions> asked_of_each(const OrganImportOptions& options, const OrganFiles& files,
+                                              const std::vector<OrganFile>& chosen) {
+  std::vector<OrganImportOptions> each;
+  std::map<std::string, std::string> seen;
+  for (const OrganFile& file : chosen) {
+    const std::string place = files.zip ? files.input + ": " + file.path.filename().string() : file.path.string();
+    OrganImportOptions& one = each.emplace_back(options);
+    one.name = file_name_of({0, 0, file.name});
+    const auto [other, fresh] = seen.emplace(one.name, place);
+    if (!fresh)
+      throw InputError(other->second + " and " + place + " would both be written as \"" + one.name +
+                       "\": rename one of them, or import each by itself under another -o");
+  }
+  return each;
+}
+
+/// The surfaces of a scene, each with those of its cavities that stay.
+std::vector<ImportedSurface> read_surfaces(const std::vector<OrganImportOptions>& each,
+                                           const std::vector<OrganFile>& chosen,
+                                           const std::vector<OrganNaming>& names) {
+  std::vector<ImportedSurface> sources;
+  std::vector<std::vector<Vec3>> within;
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    sources.push_back(read_surface(each[n], chosen[n].path, names[n]));
+    within.push_back(points_within(sources.back().surface));
+  }
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    std::vector<Vec3> others;
+    for (std::size_t other = 0; other < chosen.size(); ++other)
+      if (other != n) others.insert(others.end(), within[other].begin(), within[other].end());
+    settle(sources[n], others);
+  }
+  return sources;
+}
+
+/// Several surfaces as one scene. What lies against what is told by the triangles that they have in common, and by
+/// nothing else.
 WrittenOrgans import_surface_scene(const OrganImportOptions& options, const OrganFiles& files, const fs::path& stem) {
   if (!options.labels.empty() || options.threshold.window || !options.surface.part.empty())
     throw InputError("--labels, --threshold and --part do not go with several surfaces");
   const std::vector<OrganFile> chosen = files.chosen(files.surfaces, options.label);
-  std::vector<OrganImportOptions> each;
+  const std::vector<OrganImportOptions> each = asked_of_each(options, files, chosen);
   std::vector<OrganNaming> names;
-  std::set<std::string> seen;
-  for (const OrganFile& file : chosen) {
-    OrganImportOptions& one = each.emplace_back(options);
-    one.name = file_name_of({0, 0, file.name});
-    if (!seen.insert(one.name).second)
-      throw InputError(file.path.string() + ": another file is called \"" + one.name + "\" too: rename one of them");
-    names.push_back(name_surface(one, one.name));
-  }
-  std::vector<ImportedSurface> sources;
+  for (const OrganImportOptions& one : each) names.push_back(name_surface(one, one.name));
+  std::vector<ImportedSurface> sources = read_surfaces(each, chosen, names);
   std::vector<TriangleSurface> surfaces;
-  for (std::size_t n = 0; n < chosen.size(); ++n) {
-    sources.push_back(read_surface(each[n], chosen[n].path, names[n]));
-    surfaces.push_back(std::move(sources.back().surface));
-  }
+  for (ImportedSurface& source : sources) surfaces.push_back(std::move(source.surface));
   CompiledScene scene = compile_surfaces(surfaces, surface_compiling(options));
   WrittenOrgans written;
   for (std::size_t n = 0; n < chosen.size(); ++n)
@@ -339,6 +407,8 @@ void check_options(const OrganImportOptions& options) {
   if (!options.report.empty() && options.report.extension() != ".html" && options.report.extension() != ".htm")
     throw InputError("--report " + options.report.string() + ": the page is HTML: name it NAME.html");
   check_texts(options);
+  for (const std::string& input : {options.input, options.labels}) refuse_own_manifest(input);
+  for (const std::string& input : options.more_inputs) refuse_own_manifest(input);
   if (!fs::exists(options.input)) throw InputError(options.input + ": no such file or folder");
 }
 
@@ -374,10 +444,27 @@ void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
   written.files.push_back({fs::absolute(options.report).string(), organ_page(content)});
 }
 
+/// What is written beside the manifest, without a page that takes the place of an older one of this organ.
+std::vector<fs::path> targets_of(const OrganImportOptions& options, const WrittenOrgans& written) {
+  std::vector<fs::path> targets;
+  if (!written.set) targets.push_back(written.stem.string() + ".ply");
+  for (const CompiledMember& organ : written.organs)
+    if (written.set)
+      for (const std::string_view suffix : {std::string_view(".ply"), kOrganSuffix})
+        targets.push_back(member_stem(written.stem, organ.manifest.name).string() + std::string(suffix));
+  for (const SideFile& file : written.files) {
+    const fs::path path = written.stem.parent_path() / file.name;
+    const bool page = !options.report.empty() && path == fs::absolute(options.report);
+    if (!page || !is_older_page(path, file.bytes)) targets.push_back(path);
+  }
+  return targets;
+}
+
 /// Writes everything, then takes away what an older organ of this name had and this one has not.
 void write(const OrganImportOptions& options, WrittenOrgans& written) {
   const fs::path manifest = written.stem.string() + std::string(written.set ? kOrganSetSuffix : kOrganSuffix);
   const std::set<std::string> before = files_named_by(manifest);
+  require_not_foreign(manifest, before, targets_of(options, written));
   if (written.set) {
     written.manifest = write_organ_set(written.stem, *written.set, written.organs, written.files);
   } else {
@@ -401,6 +488,27 @@ std::vector<OrganCrossing> crossings_of(const WrittenOrgans& written) {
   return written.set ? written.set->crossings : std::vector<OrganCrossing>{};
 }
 
+/// What was decided: in a scene with the names of the organs that it holds for before it, and last what holds for all.
+std::vector<std::string> told_decisions(const WrittenOrgans& written) {
+  constexpr std::size_t kListed = 4;
+  std::vector<std::pair<std::string, std::vector<std::string>>> about;
+  for (const CompiledMember& organ : written.organs)
+    for (const std::string& decision : organ.manifest.decisions) {
+      auto found = std::find_if(about.begin(), about.end(), [&](const auto& one) { return one.first == decision; });
+      if (found == about.end()) found = about.insert(about.end(), {decision, {}});
+      if (found->second.empty() || found->second.back() != organ.manifest.name)
+        found->second.push_back(organ.manifest.name);
+    }
+  std::vector<std::string> some, all;
+  for (const auto& [decision, organs] : about)
+    if (organs.size() == written.organs.size())
+      all.push_back(decision);
+    else
+      some.push_back(listed_words(organs, kListed) + ": " + decision);
+  append(some, all);
+  return some;
+}
+
 /// Warnings, and the first of what was decided; the manifests and the page have everything.
 void remark(const WrittenOrgans& written, std::ostream& err) {
   constexpr std::size_t kFaults = 3, kNotes = 4;
@@ -410,8 +518,7 @@ void remark(const WrittenOrgans& written, std::ostream& err) {
   const std::string ended = cut_organs(written);
   if (!ended.empty() && written.organs.size() > 1)
     err << "note: the image ends inside these, their flat cap is not anatomy: " << ended << "\n";
-  std::vector<std::string> notes;
-  for (const CompiledMember& organ : written.organs) append(notes, untold(organ.manifest.decisions, notes));
+  std::vector<std::string> notes = told_decisions(written);
   append(notes, untold(written.notes, notes));
   for (std::size_t n = 0; n < std::min(notes.size(), kNotes); ++n) err << "note: " << notes[n] << "\n";
   if (notes.size() > kNotes)
@@ -431,7 +538,7 @@ WrittenOrgans import_labels(const OrganImportOptions& options, const std::option
   if (asked.label_table.empty()) asked.label_table = source.map.table;
   std::vector<std::string> decisions = source.map.notes;
   if (source.image) append(decisions, source.image->notes);
-  const std::vector<ChosenLabel> labels = choose_labels(asked, source.map, source.file, decisions);
+  const std::vector<ChosenLabel> labels = choose_labels(asked, source.map, source.file, decisions, source.origin);
   const bool scene = labels.size() > 1 || asked.all || asked.output.ends_with(kOrganSetSuffix);
   return scene ? import_scene(asked, std::move(source), labels, decisions, stem)
                : import_label(asked, std::move(source), labels.front(), decisions, stem);

@@ -21,8 +21,9 @@ namespace {
 
 /// The tetrahedra read back from their file, counted and measured anew.
 void prove_tetrahedra(const std::filesystem::path& file, VolumeMeshFile& facts) {
-  ImportedTetrahedra read = read_tetrahedra(
-      file, {.unit = "m", .frame = "RAS", .up_axis = {}, .part = {}, .organ = {}, .fill_holes_mm = {}, .wrap = {}});
+  SurfaceImportOptions how;
+  how.unit = "m", how.frame = "RAS";
+  ImportedTetrahedra read = read_tetrahedra(file, how);
   if (read.vertices.size() != facts.nodes || read.tetrahedra.size() != facts.cells)
     throw InputError(file.string() + ": holds " + std::to_string(read.vertices.size()) + " nodes and " +
                      std::to_string(read.tetrahedra.size()) + " tetrahedra, the manifest says " +

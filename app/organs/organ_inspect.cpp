@@ -190,8 +190,10 @@ std::string words(const Json& json) {
         << json["values"][0] << " to " << json["values"][1] << "\n";
   } else if (kind == "surface") {
     out << "surface\n";
-    for (const Json& part : json["parts"])
-      out << "  " << part["name"].get<std::string>() << ": " << part["triangles"] << " triangles\n";
+    for (const Json& part : json["parts"]) {
+      const std::string name = part["name"];
+      out << "  " << name << (name.empty() ? "" : ": ") << part["triangles"] << " triangles\n";
+    }
   } else {
     for (const Json& series : json["series"]) {
       out << series["words"].get<std::string>()
@@ -214,6 +216,7 @@ std::string words(const Json& json) {
 int organ_inspect(const OrganInspectOptions& options, std::ostream& out, std::ostream&) {
   namespace fs = std::filesystem;
   if (!fs::exists(options.input)) throw InputError(options.input + ": no such file or folder");
+  refuse_own_manifest(options.input);
   Json json;
   if (!fs::is_directory(options.input) && is_volume_file(options.input))
     json = volume_json(options);

@@ -124,11 +124,14 @@ std::vector<OrganNaming> name_labels(const OrganImportOptions& options, const st
   return all;
 }
 
-OrganNaming name_surface(const OrganImportOptions& options, const std::string& by_default) {
+OrganNaming name_surface(const OrganImportOptions& options, const std::string& by_default,
+                         const std::string& own_material) {
   const MaterialTable table = materials_for(options);
   require_known(table, options.material);
-  OrganNaming naming{options.name.empty() ? by_default : options.name, folded_name(options.material), {}};
-  if (options.material.empty()) find_material(table, {}, naming);
+  const bool own = options.material.empty() && table.knows(own_material);
+  OrganNaming naming{
+      options.name.empty() ? by_default : options.name, folded_name(own ? own_material : options.material), {}};
+  if (naming.material.empty()) find_material(table, {}, naming);
   return naming;
 }
 

@@ -27,7 +27,9 @@ std::vector<OrganNaming> name_labels(const OrganImportOptions& options, const st
                                      const LabelMap& map, const std::string& file_stem, const std::string& file,
                                      bool scene);
 
-/// Of a surface. @param by_default where --name says nothing
-OrganNaming name_surface(const OrganImportOptions& options, const std::string& by_default);
+/// Of a surface. @param by_default where --name says nothing. @param own_material as its file says it, taken where
+/// --material says nothing and the table knows it
+OrganNaming name_surface(const OrganImportOptions& options, const std::string& by_default,
+                         const std::string& own_material = "");
 
 }  // namespace trocar

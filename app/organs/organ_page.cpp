@@ -213,11 +213,8 @@ std::string organ_section(const CompiledMember& organ, bool several, const Label
 }
 
 std::string crossings(const OrganSet& set) {
-  std::string tags =
-      tag(set.crossings.empty(), std::to_string(set.crossings.size()) + " pairs of organs cut each other");
-  for (const OrganCrossing& crossing : set.crossings)
-    tags +=
-        tag(false, crossing.a + " and " + crossing.b + ": " + std::to_string(crossing.pairs) + " pairs of triangles");
+  std::string tags = tag(set.crossings.empty(), std::to_string(set.crossings.size()) + " pairs of organs overlap");
+  for (const OrganCrossing& crossing : set.crossings) tags += tag(false, overlap_words(crossing));
   return "<p>" + tags + "</p>";
 }
 

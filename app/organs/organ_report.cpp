@@ -133,12 +133,14 @@ void text_of_volume_mesh(std::ostream& out, const char* title, const std::option
 
 void text_of_parts(std::ostream& out, const MeshFacts& mesh) {
   constexpr std::size_t kMost = 8;
-  for (std::size_t n = 0; n < std::min(mesh.lost.size(), kMost); ++n)
-    out << "  lost       " << mesh.lost[n].kind << " of " << mesh.lost[n].volume_ml << " mL (" << mesh.lost[n].voxels
-        << " voxels)\n";
+  const auto line = [&](const char* what, const auto& part) {
+    out << what << part.kind << " of " << part.volume_ml << " mL";
+    if (part.voxels > 0) out << " (" << part.voxels << " voxels)";
+    out << "\n";
+  };
+  for (std::size_t n = 0; n < std::min(mesh.lost.size(), kMost); ++n) line("  lost       ", mesh.lost[n]);
   if (mesh.lost.size() > kMost) out << "  lost       and " << mesh.lost.size() - kMost << " smaller parts\n";
-  for (const AddedPart& part : mesh.added)
-    out << "  added      " << part.kind << " of " << part.volume_ml << " mL (" << part.voxels << " voxels)\n";
+  for (const AddedPart& part : mesh.added) line("  added      ", part);
 }
 
 }  // namespace
@@ -309,8 +311,7 @@ std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMem
   for (const OrganContact& contact : set.contacts)
     out << contact.a << " lies against " << contact.b << " over " << contact.area_m2 * 1e4 << " cm2"
         << (contact.shared ? ", the same triangles in both" : "") << "\n";
-  for (const OrganCrossing& crossing : set.crossings)
-    out << crossing.a << " and " << crossing.b << " CUT EACH OTHER: " << crossing.pairs << " pairs of triangles\n";
+  for (const OrganCrossing& crossing : set.crossings) out << "OVERLAP: " << overlap_words(crossing) << "\n";
   return text + out.str();
 }
 

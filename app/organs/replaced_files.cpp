@@ -27,6 +27,24 @@ std::set<std::string> files_named_by(const std::filesystem::path& manifest) {
   }
 }
 
+void require_not_foreign(const std::filesystem::path& manifest, const std::set<std::string>& before,
+                         const std::vector<std::filesystem::path>& targets) {
+  std::error_code none;
+  for (const std::filesystem::path& target : targets) {
+    const bool own = target.parent_path() == manifest.parent_path() && before.contains(target.filename().string());
+    if (!own && std::filesystem::exists(target, none))
+      throw InputError(target.string() + ": is there already; it is not overwritten");
+  }
+}
+
+bool is_older_page(const std::filesystem::path& file, const std::string& page) {
+  constexpr std::string_view kTitleEnds = "</title>";
+  const std::size_t end = page.find(kTitleEnds);
+  std::error_code none;
+  if (end == std::string::npos || !std::filesystem::is_regular_file(file, none)) return false;
+  return read_bytes(file).starts_with(page.substr(0, end + kTitleEnds.size()));
+}
+
 std::vector<std::string> remove_replaced(const std::filesystem::path& manifest, const std::set<std::string>& before,
                                          const std::set<std::string>& after,
                                          const std::vector<std::filesystem::path>& keep) {

@@ -110,9 +110,7 @@ int practice_command(const PracticeOptions& options, std::ostream& out, std::ost
   InterruptWatch interrupt;  // before the model starts a thread: it must inherit what is blocked
   PracticeModel model(options.model, find_assets());
   if (const std::string& on = options.model.backend; !on.empty() && is_real_device(on))
-    for (const std::string& doubt :
-         device_doubts(read_device_files(options.model.calibration, options.model.device), on))
-      err << "trocar: " << doubt << '\n';
+    for (const std::string& doubt : device_doubts(model.device_files(), on)) err << "trocar: " << doubt << '\n';
   // Told now, not after the first exercise.
   if (model.database() != ":memory:") {
     const Database database(model.database(), OpenMode::kExisting);

@@ -124,6 +124,7 @@ void Director::State::run(const StylusState& state, const TissueFrame* tissue, d
     surgery.update(tissue->suture, log);
   }
   const TaskInput input{state, tissue, dt_s, watch.too_hard()};
+  for (std::size_t i = 0; i < current; ++i) tasks[i]->keep_watch(input, log);
   tasks[current]->update(input, log);
   describe_run(input);
   if (tasks[current]->finished()) {

@@ -48,6 +48,8 @@ class ExerciseTask {
   /// The part begins now: it may ask for its first object.
   virtual void begin(EventLog& log) = 0;
   virtual void update(const TaskInput& input, EventLog& log) = 0;
+  /// In place of update() once it is finished and later parts run: what is undone of it.
+  virtual void keep_watch(const TaskInput&, EventLog&) {}
   virtual bool finished() const = 0;
   /// Object that the trainee is busy with, -1 when none: events of the safety watch name it.
   virtual std::int32_t object() const = 0;

@@ -110,7 +110,7 @@ TEST_F(BadInput, ALabelWithoutVoxelsIsRefused) {
 TEST_F(BadInput, ASurfaceWithoutAUnitIsRefusedWithAGuess) {
   folder_.write("tetrahedron.ply", kTetrahedron);
   expect_refusal({"organ", "import", "tetrahedron.ply", "-o", "x"}, 2,
-                 "tetrahedron.ply: PLY carries no unit, say --unit mm, cm or m");
+                 "tetrahedron.ply: PLY carries no unit, say --unit mm, cm, m or um");
   expect_refusal({"organ", "import", "tetrahedron.ply", "--unit", "furlong", "-o", "x"}, 2, "furlong");
   // A tetrahedron is no organ: its sharp edges, remeshed at 6000 triangles, would cut themselves without the guard.
   const Json organ = json_of({"organ", "import", "tetrahedron.ply", "--unit", "mm", "-o", "x", "--json"}, 0);

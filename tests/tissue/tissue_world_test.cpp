@@ -1,10 +1,13 @@
 // The world as a whole: patch and frame with and without an organ, pick and drop, pairs, limits, determinism.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "haptics/input_error.h"
+#include "tests/tissue/solid/bed_rig.h"
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/world_rig.h"
 
@@ -29,6 +32,12 @@ struct World : test::WorldRig {
   const ObjectState& object(std::size_t i) const { return world->frame().object[i]; }
 };
 
+Vec3 place(const TriangleSurface& surface, const MaterialPoint& at) {
+  const auto& [a, b, c] = surface.triangles[std::size_t(at.triangle)];
+  return interpolate(at.weight, {surface.vertices[std::size_t(a)], surface.vertices[std::size_t(b)],
+                                 surface.vertices[std::size_t(c)]});
+}
+
 TEST(TissueWorld, WithoutInstrumentThereIsNothingToFeelAndTheBlocksRest) {
   World w;
   w.start();
@@ -52,6 +61,45 @@ TEST(TissueWorld, AnOrganAloneIsCutIntoThePatch) {
   EXPECT_EQ(w.triangles_of(0), w.patch->count);
   EXPECT_EQ(w.patch->material[0].stiffness_n_per_m, 123);
   EXPECT_EQ(w.world->frame().object_count, 0);
+}
+
+TEST(TissueWorld, AnOrganThatGivesWayIsStoppedByTheOneBesideIt) {
+  const SurfacePtr block = still_surface(test::divided_box({-0.03, -0.03, 0}, {0.03, 0.03, 0.03}, 0.005));
+  const TriangleSurface both = test::joined(*block, test::divided_box({-0.1, -0.1, -0.031}, {0.1, 0.1, -0.001}, 0.02));
+  auto soft = std::make_shared<SoftSetup>();
+  soft->options.bed_n_per_m3 = 5e3;
+  soft->lattice = build_lattice(*block, {.cell_m = soft->options.solid.edge_m}).lattice;
+  const auto sunk = [&](const TriangleSurface& all) {
+    TissueSetup setup;
+    setup.organ_T = &all;
+    setup.seen_T = block;
+    setup.soft = soft;
+    if (&all == &both) setup.adjacent = {ContactMaterial{}};
+    std::vector<std::int32_t> material(all.triangles.size(), 1);
+    std::fill_n(material.begin(), block->triangles.size(), 0);
+    setup.triangle_material = material;
+    setup.tools = {make_tool(InstrumentKind::kProbe)};
+    TissueWorld world(setup);
+    const auto patch = std::make_unique<ContactPatch>();
+    HapticState state;
+    state.contacts.count = 1;
+    SolvedContact& contact = state.contacts.at[0];
+    contact.place = {0, {1. / 3, 1. / 3, 1. / 3}};
+    while (place(*block, contact.place).z() < 0.0299) ++contact.place.triangle;
+    contact.normal_T = Vec3::UnitZ();
+    contact.force_T = Vec3::UnitZ();
+    contact.anchor.triangle = -1;
+    contact.tool_T = place(*block, contact.place) - Vec3(0, 0, 0.012);
+    for (int i = 0; i < 100; ++i) {
+      state.stylus.t_s += 0.01;
+      world.step(state, true, *patch);
+    }
+    double low = 0;
+    for (const Vec3& vertex : world.surface()->vertices) low = std::min(low, vertex.z());
+    return low;
+  };
+  EXPECT_LT(sunk(*block), -0.003);
+  EXPECT_GT(sunk(both), -0.002);
 }
 
 TEST(TissueWorld, BoardAndBlocksAreFeltWithMaterialsOfTheirOwn) {

@@ -69,10 +69,7 @@ void PatchExtraction::look_ahead(const Pose& X_TI, const ToolCapsules& tool, dou
     for (const SurfaceTree::Hit* hit : nearest) {
       // Half-way to the axis, or beyond it, its side is not told.
       if (hit == nullptr || hit->distance < capsule.radius_m / 2 || contacts.count == kMaxContacts) continue;
-      const auto& [i, j, k] = surface.triangles[static_cast<std::size_t>(hit->triangle)];
-      const std::array<Vec3, 3> corners{surface.vertices[static_cast<std::size_t>(i)],
-                                        surface.vertices[static_cast<std::size_t>(j)],
-                                        surface.vertices[static_cast<std::size_t>(k)]};
+      const auto corners = surface.corners(surface.triangles[static_cast<std::size_t>(hit->triangle)]);
       const ClosestPair closest = closest_segment_triangle(axis.a, axis.b, corners);
       SolvedContact& ahead = contacts.at[static_cast<std::size_t>(contacts.count++)];
       ahead.place = {hit->triangle, barycentric_of(closest.on_triangle, corners)};

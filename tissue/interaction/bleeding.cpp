@@ -180,6 +180,11 @@ void Bleeding::clip_vessel(std::int32_t vessel, double at, double share) {
   vessels_.clip(vessel, at, share);
 }
 
+void Bleeding::unclip_vessel(std::int32_t vessel, double at) {
+  if (vessel < 0 || static_cast<std::size_t>(vessel) >= vessels_.vessels() || !std::isfinite(at)) return;
+  vessels_.unclip(vessel, at);
+}
+
 void Bleeding::pinch_vessel(std::int32_t vessel, double at, double share) {
   if (vessel < 0 || static_cast<std::size_t>(vessel) >= vessels_.vessels() || !std::isfinite(at + share)) return;
   vessels_.pinch(vessel, at, share);

@@ -109,6 +109,8 @@ class Bleeding {
   /// @returns the first of two numbers that follow each other; -1 as above
   WoundId cut_vessel(std::int32_t vessel, double at, const MaterialPoint& from_end, const MaterialPoint& to_end);
   void clip_vessel(std::int32_t vessel, double at, double share);
+  /// The clip at exactly that place came off.
+  void unclip_vessel(std::int32_t vessel, double at);
   /// Jaws that press a share of its lumen shut there, until the next; 0: none.
   void pinch_vessel(std::int32_t vessel, double at, double share);
   /// On the vessels of a wound: 1 closes them, less lets some through. What of its faces is spanned oozes no longer.

@@ -30,6 +30,11 @@ std::optional<Touch> strongest_touch(const SolvedContacts& contacts, const SoftO
   return best;
 }
 
+/// Where current enters the organ.
+struct Electrode {
+  Vec3 rest_T, now_T;
+};
+
 /// Of three places: the first, x to the second, z out of their plane.
 Pose frame_of(const std::array<std::int32_t, 3>& vertices, const std::vector<Vec3>& at) {
   const Vec3 &a = at[static_cast<std::size_t>(vertices[0])], &b = at[static_cast<std::size_t>(vertices[1])],
@@ -115,10 +120,11 @@ void InstrumentActions::after(const HapticState& newest, const Tool& tool, bool 
   state_.contact_c = 0;
   if (present) {
     press_wounds(newest, organ);
+    may_rinse_ = tool.kind == InstrumentKind::kSuction && (may_rinse_ || stylus.jaw_opening_m >= kRinseBelow);
     if (tool.kind == InstrumentKind::kSuction) {
       sucks = stylus.pedal;
       if (sucks) bleeding_.suck({.tip_T = stylus.X_TI.p});
-      if (stylus.jaw_opening_m < kRinseBelow)
+      if (may_rinse_ && stylus.jaw_opening_m < kRinseBelow)
         bleeding_.irrigate({.tip_T = stylus.X_TI.p, .direction_T = stylus.X_TI.R.col(2)});
     }
   }
@@ -148,8 +154,12 @@ void InstrumentActions::refuse(CutRefusal why) {
 }
 
 void InstrumentActions::cut_between_blades(const StylusState& stylus, SoftOrgan& organ) {
-  cut(scissor_blade(stylus.X_TI, options_.blades_m, widest_m_), organ);
+  const Blade blade = scissor_blade(stylus.X_TI, options_.blades_m, widest_m_);
   widest_m_ = 0;
+  const TracedCut ahead = trace_cut(*organ.surface(), blade);
+  if (ahead.refusal == CutRefusal::kNone && runs_beside_wound(*organ.surface(), organ.surface()->inside, ahead.cut))
+    return refuse(CutRefusal::kBesideCut);
+  cut(blade, organ);
 }
 
 void InstrumentActions::feel_blades(const StylusState& stylus, const SoftOrgan& organ) {
@@ -252,21 +262,26 @@ void InstrumentActions::draw_hook(const HapticState& newest, SoftOrgan& organ) {
 void InstrumentActions::energise(const HapticState& newest, const Tool& tool, const SoftOrgan& organ) {
   HeatSource source;
   const bool live = newest.stylus.pedal && describe(tool.kind).powered && tool.kind != InstrumentKind::kSuction;
-  std::optional<Touch> touch;
-  if (live) touch = strongest_touch(newest.contacts, organ);
-  if (touch) {
+  std::optional<Electrode> electrode;
+  if (live && grip_.holds()) {  // what is between the pads is no contact of the loop
+    electrode = {grip_.middle_rest_T(organ), grip_.middle_T(organ)};
+  } else if (live) {
+    if (const auto touch = strongest_touch(newest.contacts, organ))
+      electrode = {organ.rest_place(touch->place), organ.place_T(touch->place)};
+  }
+  if (electrode) {
     const bool hook = tool.kind == InstrumentKind::kHook, grasper = tool.kind == InstrumentKind::kGrasper;
-    source.rest_T = organ.rest_place(touch->place);
+    source.rest_T = electrode->rest_T;
     source.radius_m = hook ? options_.hook_edge_m : options_.pad_contact_m;
     source.power_w = hook ? options_.cut_w : grasper ? options_.soft_w : options_.forced_w;
     source.mode = hook ? HeatMode::kCut : grasper ? HeatMode::kSoftCoagulation : HeatMode::kForcedCoagulation;
     source.tool = newest.stylus.instrument;
   }
-  heat_.step({&source, touch ? std::size_t{1} : std::size_t{0}});
-  if (!touch) return;
+  heat_.step({&source, electrode ? std::size_t{1} : std::size_t{0}});
+  if (!electrode) return;
   state_.contact_c = heat_.given().front().contact_c;
   if (state_.contact_c > options_.coagulates_c)
-    bleeding_.coagulate(organ.place_T(touch->place), std::max(source.radius_m, options_.coagulates_m),
+    bleeding_.coagulate(electrode->now_T, std::max(source.radius_m, options_.coagulates_m),
                         std::min(1.0, options_.coagulates_per_s * organ.solid().options().step_s));
 }
 

@@ -6,7 +6,7 @@
 //             blades coagulate what they touch
 //   hook      pedal: vaporises what it touches; drawn along, it cuts
 //   clip applier  closing sets a clip on the wound between its jaws, which stays and moves with the tissue
-//   suction   pedal: takes blood and water away; fingers closed: rinses
+//   suction   pedal: takes blood and water away; fingers closed, that have been open since it is in hand: rinses
 // A bed between two organs (solid/organ_bed.h) is weakened by heat, goes where a live hook reaches its fibres, and
 // oozes where it has been peeled. Every instrument presses on wounds that it stands on. A closing that does nothing
 // tells why (CutRefusal). Order of a step: before() what acts on the organ as it lies, then the organ's own step, then
@@ -107,6 +107,7 @@ class InstrumentActions {
   SurgeryState state_;
   GripBlock blades_;
   double widest_m_ = 0;
+  bool may_rinse_ = false;   ///< the fingers have been open since the suction is in hand
   double now_s_ = 0;         ///< of the loop
   double overloaded_s_ = 0;  ///< of a held fold
   bool cut_now_ = false;     ///< in this step

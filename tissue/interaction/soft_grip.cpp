@@ -74,12 +74,15 @@ double SoftGrip::rupture_n_per_m(const SoftOrgan& organ) const {
                          : organ.material(places_.front().triangle).rupture_n_per_m;
 }
 
-Vec3 SoftGrip::middle_T(const SoftOrgan& organ) const {
+Vec3 SoftGrip::middle_of_places(const TriangleSurface& surface) const {
   Vec3 sum = Vec3::Zero();
-  for (const Place& place : places_)
-    sum += middle(*organ.surface(), place.triangle) / static_cast<double>(places_.size());
+  for (const Place& place : places_) sum += middle(surface, place.triangle) / static_cast<double>(places_.size());
   return sum;
 }
+
+Vec3 SoftGrip::middle_T(const SoftOrgan& organ) const { return middle_of_places(*organ.surface()); }
+
+Vec3 SoftGrip::middle_rest_T(const SoftOrgan& organ) const { return middle_of_places(*organ.rest()); }
 
 bool SoftGrip::jaws_clear(const Pose& X_TI, const SoftOrgan& organ) const {
   const Pose X_IT = X_TI.inverse();

@@ -44,6 +44,9 @@ class SoftGrip {
   double slipped_m() const { return slipped_m_; }
   /// Middle of what is held, in T; where nothing is, the origin.
   Vec3 middle_T(const SoftOrgan& organ) const;
+  /// The same at rest; it may lie just inside the organ.
+  Vec3 middle_rest_T(const SoftOrgan& organ) const;
+  bool holds() const { return !places_.empty(); }
   /// Of the part that is held, tension per width; of nothing, infinity.
   double rupture_n_per_m(const SoftOrgan& organ) const;
   double squeeze_n() const { return squeeze_n_; }  ///< of the pads on the fold
@@ -63,6 +66,7 @@ class SoftGrip {
   };
   /// Triangles whose middle lies between the pads.
   std::vector<std::int32_t> between(const Pose& X_TI, double opening_m, const SoftOrgan& organ) const;
+  Vec3 middle_of_places(const TriangleSurface& surface) const;
   void take(const Pose& X_TI, const std::vector<std::int32_t>& triangles, const SoftOrgan& organ);
   bool jaws_clear(const Pose& X_TI, const SoftOrgan& organ) const;
 

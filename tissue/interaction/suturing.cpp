@@ -12,7 +12,9 @@
 namespace trocar {
 namespace {
 
-constexpr std::int32_t kSutureMark = -43;  // where a cut of an organ has a triangle, as DuctChange
+// Where a cut of an organ has a triangle, as DuctChange. Recordings of before have a sheet's mark, whose changes are
+// whole numbers of four bytes, as no event of a suture is.
+constexpr std::int32_t kSutureMark = -44, kFormerSutureMark = -43;
 constexpr int kThreadSides = 6;
 constexpr std::size_t kNeedlePlaces = 3;
 constexpr double kUnderOrgan = 0.005;  // m of the organ's lowest place over what a lost needle lies on
@@ -122,12 +124,13 @@ bool is_suture_event(std::string_view bytes) {
   std::int32_t mark = 0;
   if (bytes.size() < sizeof mark) return false;
   std::memcpy(&mark, bytes.data(), sizeof mark);
-  return mark == kSutureMark;
+  return mark == kSutureMark || (mark == kFormerSutureMark && bytes.size() % sizeof mark != 0);
 }
 
 SutureEvent parse_suture_event(std::string_view bytes) {
   SutureEvent event;
-  if (take_of_suture<std::int32_t>(bytes) != kSutureMark) throw InputError("a change of the tissue is not a suture's");
+  if (!is_suture_event(bytes)) throw InputError("a change of the tissue is not a suture's");
+  take_of_suture<std::int32_t>(bytes);
   const auto kind = take_of_suture<std::uint8_t>(bytes);
   if (kind > static_cast<std::uint8_t>(SutureEvent::Kind::kSnipped))
     throw InputError("an event of a suture is unknown");

@@ -89,6 +89,11 @@ void VesselFlow::clip(std::int32_t vessel, double at, double share) {
   close(vessel, {std::clamp(at, 0.0, 1.0), std::clamp(share, 0.0, 1.0), options_.clip_holds_pa});
 }
 
+void VesselFlow::unclip(std::int32_t vessel, double at) {
+  std::erase_if(vessels_[static_cast<std::size_t>(vessel)].closures,
+                [place = std::clamp(at, 0.0, 1.0)](const Closure& closure) { return closure.at == place; });
+}
+
 void VesselFlow::seal(std::int32_t vessel, double at, double share) {
   close(vessel, {std::clamp(at, 0.0, 1.0), std::clamp(share, 0.0, 1.0), options_.seal_holds_pa});
 }

@@ -73,6 +73,8 @@ class VesselFlow {
   void cut(std::int32_t vessel, double at);
   /// @param share of the lumen's area, 0 .. 1
   void clip(std::int32_t vessel, double at, double share);
+  /// Takes off what was closed at exactly that place.
+  void unclip(std::int32_t vessel, double at);
   void seal(std::int32_t vessel, double at, double share);
   /// Until the next: pressure from outside beside the surroundings', Pa.
   void press(std::int32_t vessel, double pressure_pa);

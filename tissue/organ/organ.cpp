@@ -6,10 +6,13 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/imaging/labels/segment.h"
+#include "tissue/imaging/volumes/volume_reader.h"
 #include "tissue/mesh/surface/topology.h"
 #include "tissue/organ/organ_manifest.h"
 #include "tissue/organ/organ_set.h"
 #include "tissue/organ/ply_file.h"
+#include "tissue/organ/surface_import.h"
 
 namespace trocar {
 namespace {
@@ -44,6 +47,34 @@ std::string shipped_name(const std::string& file) {
   return "";
 }
 
+/// What an organ is made from, or a part of it, is none.
+void refuse_other_kinds(const std::string& file) {
+  if (is_volume_file(file))
+    throw InputError(file + ": is an image or a label map: `trocar organ import` makes an organ of it");
+  if (!is_surface_file(file)) return;
+  const std::filesystem::path organ = std::filesystem::path(file).replace_extension(kOrganSuffix);
+  throw InputError(file + ": is a surface: " +
+                   (std::filesystem::is_regular_file(organ) ? "give its organ, " + organ.string()
+                                                            : "`trocar organ import` makes an organ of it"));
+}
+
+/// ": give one of a.scene.toml, b.organ.toml and 3 more"
+std::string organs_in(const std::filesystem::path& folder) {
+  constexpr std::size_t kListed = 6;
+  std::vector<std::string> scenes, organs;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    const std::string file = entry.path().filename().string();
+    if (file.ends_with(kOrganSetSuffix)) scenes.push_back(file);
+    if (file.ends_with(kOrganSuffix)) organs.push_back(file);
+  }
+  std::sort(scenes.begin(), scenes.end());
+  std::sort(organs.begin(), organs.end());
+  scenes.insert(scenes.end(), organs.begin(), organs.end());
+  if (scenes.empty()) return " without an organ in it; `trocar organ import` makes organs of scans and surfaces";
+  return ": give one of the files in it: " + listed_words(scenes, kListed);
+}
+
 }  // namespace
 
 Organ load_organ(const std::filesystem::path& given) {
@@ -73,13 +104,17 @@ std::filesystem::path without_subject(const std::filesystem::path& given) {
 
 std::filesystem::path find_organ(const std::string& name_or_path, const std::filesystem::path& assets) {
   const auto [name, subject] = split_subject(name_or_path);
-  if (std::filesystem::is_regular_file(name)) return name_or_path;
+  if (std::filesystem::is_regular_file(name)) {
+    refuse_other_kinds(name);
+    return name_or_path;
+  }
   const std::filesystem::path folder = assets / "organs";
   for (const std::string_view suffix : {kOrganSuffix, kOrganSetSuffix}) {
     const std::filesystem::path shipped = folder / (name + std::string(suffix));
     if (std::filesystem::path(name).filename() == name && std::filesystem::is_regular_file(shipped))
       return shipped.string() + (subject.empty() ? "" : "#" + subject);
   }
+  if (std::filesystem::is_directory(name)) throw InputError(name + ": is a folder" + organs_in(name));
   std::vector<std::string> names;
   std::error_code missing;
   for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {

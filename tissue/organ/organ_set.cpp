@@ -7,6 +7,8 @@
 
 #include "haptics/digest/digest.h"
 #include "haptics/input_error.h"
+#include "tissue/mesh/files/surface_pieces.h"
+#include "tissue/mesh/files/winding.h"
 #include "tissue/mesh/surface/surface_check.h"
 #include "tissue/organ/staged_file.h"
 #include "tissue/organ/toml_table.h"
@@ -67,6 +69,12 @@ OrganAttachment read_attachment(TomlTable& table) {
   }
   table.finish();
   return attachment;
+}
+
+bool holds_any(const TriangleSurface& surface, const std::vector<Vec3>& points) {
+  const Eigen::AlignedBox3d box = surface.bounds();
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Vec3& point) { return box.contains(point) && encloses(surface, point); });
 }
 
 }  // namespace
@@ -168,12 +176,27 @@ std::filesystem::path member_stem(const std::filesystem::path& stem, const std::
   return stem.string() + "-" + name;
 }
 
+std::string overlap_words(const OrganCrossing& crossing) {
+  if (crossing.pairs == 0) return crossing.a + " lies within " + crossing.b + ": the two overlap";
+  return crossing.a + " and " + crossing.b + " cut each other: " + std::to_string(crossing.pairs) +
+         " pairs of triangles";
+}
+
 std::vector<OrganCrossing> organ_crossings(const std::vector<CompiledMember>& members) {
   std::vector<const TriangleSurface*> surfaces;
   for (const CompiledMember& member : members) surfaces.push_back(&member.surface);
   std::vector<OrganCrossing> crossings;
-  for (const auto& [first, second, pairs] : surface_crossings(surfaces))
+  std::set<std::pair<std::size_t, std::size_t>> cut;
+  for (const auto& [first, second, pairs] : surface_crossings(surfaces)) {
     crossings.push_back({members[first].manifest.name, members[second].manifest.name, pairs});
+    cut.insert({first, second});
+  }
+  for (std::size_t inner = 0; inner < surfaces.size(); ++inner) {
+    const std::vector<Vec3> points = points_within(*surfaces[inner]);
+    for (std::size_t outer = 0; outer < surfaces.size(); ++outer)
+      if (outer != inner && !cut.contains(std::minmax(inner, outer)) && holds_any(*surfaces[outer], points))
+        crossings.push_back({members[inner].manifest.name, members[outer].manifest.name, 0});
+  }
   return crossings;
 }
 
@@ -190,9 +213,7 @@ std::vector<std::string> faults_of(const std::vector<CompiledMember>& members,
   for (const CompiledMember& member : members)
     if (const std::size_t cuts = member.manifest.mesh.self_intersections; cuts > 0)
       faults.push_back(member.manifest.name + " cuts itself: " + std::to_string(cuts) + " pairs of triangles");
-  for (const OrganCrossing& crossing : crossings)
-    faults.push_back(crossing.a + " and " + crossing.b + " cut each other: " + std::to_string(crossing.pairs) +
-                     " pairs of triangles");
+  for (const OrganCrossing& crossing : crossings) faults.push_back(overlap_words(crossing));
   return faults;
 }
 

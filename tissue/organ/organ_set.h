@@ -32,10 +32,10 @@ struct OrganAttachment {
   bool operator==(const OrganAttachment&) const = default;
 };
 
-/// Two organs whose surfaces cut each other.
+/// Two organs that overlap: their surfaces cut each other, or one lies within the other.
 struct OrganCrossing {
-  std::string a, b;       ///< names; a before b in the file's order
-  std::size_t pairs = 0;  ///< of triangles
+  std::string a, b;       ///< names; a before b in the file's order, or a within b
+  std::size_t pairs = 0;  ///< of triangles that cut each other; 0 where a (a piece of it) lies within b
   bool operator==(const OrganCrossing&) const = default;
 };
 
@@ -75,7 +75,10 @@ struct CompiledMember {
 /// Path without suffix of one organ of a scene: STEM-NAME.
 std::filesystem::path member_stem(const std::filesystem::path& stem, const std::string& name);
 
-/// The crossings between the organs of a scene, as the scene file holds them and `organ info` finds them.
+/// "liver and spleen cut each other: 3 pairs of triangles", "tumour lies within liver: the two overlap"
+std::string overlap_words(const OrganCrossing& crossing);
+
+/// The overlaps between the organs of a scene, as the scene file holds them and `organ info` finds them.
 std::vector<OrganCrossing> organ_crossings(const std::vector<CompiledMember>& members);
 
 /// Enters the surfaces (enter_surface) and the crossings between them, once.

@@ -124,6 +124,7 @@ ImportedSurface import_surface(const std::filesystem::path& path, const SurfaceI
   SurfaceFile read = read_surface_file(path, progress);
   ImportedSurface result;
   result.parts = parts_of(read);
+  result.name = read.name, result.material = read.material;
   TriangleSurface surface = taken_piece(read, options, file);
   const std::string organ = organ_of(options, path);
   const Placement placement = placement_of(read, options, bounds_of_triangles(surface), organ, file);

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct WrapSettings {
 };
 
 struct SurfaceImportOptions {
-  std::string unit;   ///< "mm", "cm" or "m"; "" takes the file's own, and is refused where it has none
+  std::string unit;   ///< "mm", "cm", "m" or "um"; "" takes the file's own, and is refused where it has none
   std::string frame;  ///< what the file's x, y, z point at: "RAS", "LPS", "LSA" ...; "" takes the file's own, else RAS
   std::string up_axis;  ///< short for a frame: "z" is RAS, "y" is LSA (as glTF), "x" is SRA; "" for none
   std::string part;     ///< node or region to take by its name; "" takes all of them and welds across them
@@ -34,6 +35,7 @@ struct SurfaceImportOptions {
       organ;  ///< what it is meant to be ("liver"): sharpens the hints of size; "" guesses from part and file name
   std::optional<double> fill_holes_mm;  ///< holes up to this span are filled; empty fills none
   std::optional<WrapSettings> wrap;     ///< wrap everything that is taken; empty wraps nothing
+  bool only_largest = false;            ///< nothing but the largest part; else all from 1 % of its volume on
 };
 
 /// A node, mesh, group or region of the file.
@@ -43,11 +45,14 @@ struct SurfacePart {
 };
 
 struct ImportedSurface {
-  TriangleSurface surface;              ///< welded, one component, closed, manifold, outward, m, RAS
-  std::vector<double> lost_volumes_m3;  ///< smaller components left out, largest first
+  TriangleSurface surface;                ///< welded, closed, manifold, outward, m, RAS; of several parts
+  std::vector<double> lost_volumes_m3;    ///< smaller parts left out, largest first
+  std::vector<TriangleSurface> cavities;  ///< still filled: what each encloses, outward, largest first
+  std::vector<double> filled_volumes_m3;  ///< of cavities that settle_cavities filled
   std::size_t source_self_intersections = 0;
-  std::string unit;                    ///< of the file: "mm", "cm", "m", or "2.54 cm"
+  std::string unit;                    ///< of the file: "mm", "cm", "m", "um", or "2.54 cm"
   std::string frame;                   ///< of the file: "RAS", "LPS" ...
+  std::string name, material;          ///< of the organ, where the file is our own export's and says so
   std::vector<SurfacePart> parts;      ///< every named part of the file, whether taken or not, in the order of the file
   std::vector<std::string> decisions;  ///< where unit and frame were taken from, what was ignored
   std::vector<std::string> repairs;    ///< what was changed
@@ -68,7 +73,7 @@ struct ImportedTetrahedra {
 inline constexpr double kSmallestOrganM = 0.005;
 inline constexpr double kLargestOrganM = 0.6;
 
-/// Factor from "mm", "cm" or "m" to metres. @throws InputError for anything else
+/// Factor from "mm", "cm", "m" or "um" to metres. @throws InputError for anything else
 double metres_per(const std::string& unit);
 
 /// Whether the extension of the name is one that import_surface reads (".stl", ".ply", ".glb" ...), in any case.
@@ -78,8 +83,12 @@ bool is_surface_file(const std::filesystem::path& path);
 /// open, not manifold
 ImportedSurface import_surface(const std::filesystem::path& path, const SurfaceImportOptions& options,
                                const Progress& progress = {});
-/// With the unit alone. @param unit "mm", "cm", "m" or ""
+/// With the unit alone. @param unit "mm", "cm", "m", "um" or ""
 ImportedSurface import_surface(const std::filesystem::path& path, const std::string& unit);
+
+/// Keeps the cavities for which `keep` says yes, and says of the others that they were filled. @param keep of what a
+/// cavity encloses, outward
+void settle_cavities(ImportedSurface& result, const std::function<bool(const TriangleSurface&)>& keep);
 
 /// The parts of a file, without a word about its unit or whether it is closed. @throws InputError as import_surface
 std::vector<SurfacePart> list_surface_parts(const std::filesystem::path& path, const Progress& progress = {});

@@ -53,9 +53,29 @@ void ClipSet::pull(std::int32_t number, const Vec3& force_T) {
   if (find(number) && force_T.allFinite()) held_[static_cast<std::size_t>(number) - 1].pull_T += force_T;
 }
 
+void ClipSet::pull_held(std::span<const double> arcs, const Vec3& force_T) {
+  for (const double arc : arcs) pull(number_at(arc), force_T / static_cast<double>(arcs.size()));
+}
+
+void ClipSet::pull_touched(std::span<const RodSpring> springs) {
+  for (const RodSpring& spring : springs) pull(number_at(spring.arc_m), -spring.force_n * spring.direction);
+}
+
+std::int32_t ClipSet::number_at(double arc_m) const {
+  double nearest = options_.width_m / 2;
+  std::int32_t found = 0;
+  for (const Clip& clip : clips_) {
+    const double off = std::abs(clip.arc_m - arc_m);
+    if (!clip.on || off > nearest) continue;
+    nearest = off;
+    found = clip.number;
+  }
+  return found;
+}
+
 double ClipSet::bears_n(const Clip& clip, const ElasticRod& rod) const {
   const double stump = (stump_beyond(rod, clip.arc_m) - options_.width_m / 2) / options_.stump_m;
-  return options_.pull_off_n * clip.width_share * std::clamp(stump, kLeastHold, 1.0);
+  return options_.pull_off_n * std::pow(clip.width_share, options_.part_power) * std::clamp(stump, kLeastHold, 1.0);
 }
 
 void ClipSet::remove(std::int32_t number, ElasticRod& rod, Lumen& lumen) {

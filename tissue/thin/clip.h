@@ -23,6 +23,7 @@ struct ClipOptions {
   double holds_pa = 39997;    ///< 300 mmHg: what a whole clip withstands
   double pull_off_n = 5;      ///< along the rod, 3 to 8 N (unchecked)
   double stump_m = 0.002;     ///< of rod beyond it, below which it holds less: in proportion (a choice)
+  double part_power = 1;      ///< of the share of the width that it closes, in what it bears: in proportion (a choice)
   double overload_s = 0.020;  ///< how long the pull must be too hard
 };
 
@@ -45,10 +46,16 @@ class ClipSet {
   std::int32_t place(ElasticRod& rod, Lumen& lumen, double arc_m, double width_share, const Pose& X_TI);
   /// Something pulls on a clip in this step, N in T; adds up.
   void pull(std::int32_t number, const Vec3& force_T);
+  /// Jaws that hold the clips at these arcs pull on them, on each alike.
+  void pull_held(std::span<const double> arcs, const Vec3& force_T);
+  /// Springs of the rod's step: those within the width of a clip pull on it.
+  void pull_touched(std::span<const RodSpring> springs);
   /// After the rod's step: where they are now, and which ones came off. @return numbers of those
   std::vector<std::int32_t> step(ElasticRod& rod, Lumen& lumen);
   /// Takes one off.
   void remove(std::int32_t number, ElasticRod& rod, Lumen& lumen);
+  /// Of the one that is on whose width has this arc, the nearest; 0: none.
+  std::int32_t number_at(double arc_m) const;
 
   /// What one bears along the rod: by its width share, and less with little rod beyond it. N
   double bears_n(const Clip& clip, const ElasticRod& rod) const;

@@ -28,6 +28,12 @@ constexpr std::int32_t kBladesOnClip = kFirstClipRefusal + 16;
 
 constexpr std::array kEnds{RodEnd::kStart, RodEnd::kFinish};
 
+RodGripOptions grasp_options(const DuctSystemOptions& options) {
+  RodGripOptions out = options.grip;
+  out.clip_legs_m = 2 * options.applier.clip.leg_m;
+  return out;
+}
+
 RodGripOptions clasp_options(const DuctSystemOptions& options) {
   RodGripOptions out = options.grip;
   out.pad_length_m = options.applier.clip.length_m;
@@ -66,6 +72,7 @@ std::optional<DuctMark::Kind> opening_of(DuctChange::Kind kind) {
       return DuctMark::Kind::kTorn;
     case DuctChange::Kind::kClipped:
     case DuctChange::Kind::kSealed:
+    case DuctChange::Kind::kUnclipped:
       break;
   }
   return std::nullopt;
@@ -95,7 +102,8 @@ std::optional<JawSpace> jaw_space(const DuctSystemOptions& options, InstrumentKi
 
 std::string_view closing_words(std::int32_t refusal) {
   if (refusal == kBladesOnClip) return "The blades stand on a clip.";
-  if (refusal > 0 && refusal <= static_cast<std::int32_t>(CutRefusal::kNoWound))
+  if (refusal == kClipCameOff) return "A clip was pulled off.";
+  if (refusal > 0 && refusal <= static_cast<std::int32_t>(CutRefusal::kBesideCut))
     return refusal_words(static_cast<CutRefusal>(refusal));
   const std::int32_t of_clip = refusal - kFirstClipRefusal;
   if (of_clip > 0 && of_clip <= static_cast<std::int32_t>(ClipRefusal::kNotShut))
@@ -110,8 +118,8 @@ DuctSystem::DuctSystem(std::span<const DuctSetup> ducts, const SoftOrgan& organ,
     try {
       DuctTube tube(setup, organ.solid().options().step_s);
       RodSurface touched(tube.rod, options_.contact_sides);
-      ducts_.push_back(
-          {setup, std::move(tube), std::move(touched), RodGrip(options_.grip), RodGrip(clasp_options(options_))});
+      ducts_.push_back({setup, std::move(tube), std::move(touched), RodGrip(grasp_options(options_)),
+                        RodGrip(clasp_options(options_))});
       ducts_.back().hook = RodHook(options_.hook);
     } catch (const InputError& error) {
       throw InputError("duct '" + setup.name + "': " + error.what());
@@ -220,13 +228,14 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
   for (std::size_t d = 0; d < ducts_.size(); ++d) {
     Duct& duct = ducts_[d];
     duct.tube.lumen.begin();
+    const std::vector<double> clips = duct.tube.clips.arcs();
     for (RodGrip* grip : {&duct.grip, &duct.clasp}) {
       const InstrumentKind wanted = grip == &duct.grip ? InstrumentKind::kGrasper : InstrumentKind::kClipApplier;
       if (!present || tool.kind != wanted) {
         grip->let_go();
         continue;
       }
-      grip->reach(stylus.X_TI, stylus.jaw_opening_m, duct.tube.rod, of_rods[d]);
+      grip->reach(stylus.X_TI, stylus.jaw_opening_m, duct.tube.rod, of_rods[d], clips);
       grip->press(duct.tube.lumen);
     }
     of_jaws[d] = of_rods[d].size();
@@ -254,14 +263,16 @@ void DuctSystem::step(const HapticState& newest, const DuctContacts& contacts, c
     for (RodGrip* grip : {&duct.grip, &duct.clasp}) {
       if (grip->state() == GripState::kEmpty) continue;
       grip->feel(stylus.X_TI, std::span(of_rods[d]).first(of_jaws[d]), duct.tube.rod);
+      duct.tube.clips.pull_held(grip->clips(), -grip->pull_T());
       if (block_.stiffness_n_per_m < grip->block().stiffness_n_per_m) block_ = grip->block();
       if (hold_.stiffness_n_per_m < grip->hold().stiffness_n_per_m) hold_ = grip->hold();
     }
     duct.hook.feel(stylus.X_TI, std::span(of_rods[d]).subspan(of_jaws[d], of_hook[d] - of_jaws[d]), duct.tube.rod);
     if (hold_.stiffness_n_per_m < duct.hook.hold().stiffness_n_per_m) hold_ = duct.hook.hold();
+    duct.tube.clips.pull_touched(std::span(of_rods[d]).subspan(of_jaws[d]));
   }
   take_events();
-  for (Duct& duct : ducts_) duct.tube.clips.step(duct.tube.rod, duct.tube.lumen);
+  for (std::size_t d = 0; d < ducts_.size(); ++d) lose_clips(d);
   follow();
   for (const Duct& duct : ducts_) add_loads(duct, springs);
   const bool leaks = std::any_of(ducts_.begin(), ducts_.end(), [&](const Duct& duct) {
@@ -424,6 +435,19 @@ void DuctSystem::take_events() {
           {.kind = DuctMark::Kind::kTorn, .duct = static_cast<std::int32_t>(d), .arc_m = event.arc_m});
       ++tears_;
     }
+}
+
+/// Jaws that held one have nothing any more.
+void DuctSystem::lose_clips(std::size_t d) {
+  Duct& duct = ducts_[d];
+  for (const std::int32_t number : duct.tube.clips.step(duct.tube.rod, duct.tube.lumen)) {
+    const double arc = duct.tube.clips.clips()[static_cast<std::size_t>(number) - 1].arc_m;
+    changed_.push_back({DuctChange::Kind::kUnclipped, static_cast<std::int32_t>(d), arc});
+    for (RodGrip* grip : {&duct.grip, &duct.clasp})
+      if (std::find(grip->clips().begin(), grip->clips().end(), arc) != grip->clips().end()) grip->let_go();
+    if (closing_.value_or(0) == 0) closing_ = kClipCameOff;
+    ++refusals_;
+  }
 }
 
 std::int32_t DuctSystem::contact_vertex(std::size_t duct, std::int32_t vertex) const {

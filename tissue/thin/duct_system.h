@@ -1,13 +1,13 @@
 // All ducts and vessels of a scene: held by the organ and by fixed places, touched, held, clipped, cut.
 //
 // One step, before the organ's own: lumen.begin, jaws (grip, clip applier, scissors), heat, anchors where the organ is
-// and is going, rod.step, clips.step, surfaces; then springs of the ends for the organ's step (rod_on_solid.h). An end
-// on the organ hangs on the vertex nearest to it. An organ lies as it is drawn under the tension of its ducts: what it
-// feels of them is what their pull has changed, all of it once a duct is cut. A rod that lies between the jaws is taken
-// by them and is then no contact until the tool is clear of it; the organ is not (jaws_taken). Contact surface: a
-// coarse tube a duct, one behind the other; numbers stay through cuts, whose new ones follow behind all. Contacts of
-// the loop push the rod by dent_stiffness(), which is the stiffness of its material in the patch: at the place of the
-// solve the loop's force is the solved one.
+// and is going, rod.step, what pulls on clips, clips.step, surfaces; then springs of the ends for the organ's step
+// (rod_on_solid.h). An end on the organ hangs on the vertex nearest to it. An organ lies as it is drawn under the
+// tension of its ducts: what it feels of them is what their pull has changed, all of it once a duct is cut. A rod that
+// lies between the jaws is taken by them and is then no contact until the tool is clear of it; the organ is not
+// (jaws_taken). Contact surface: a coarse tube a duct, one behind the other; numbers stay through cuts, whose new ones
+// follow behind all. Contacts of the loop push the rod by dent_stiffness(), which is the stiffness of its material in
+// the patch: at the place of the solve the loop's force is the solved one.
 //
 // What bleeds is told by changed(): the caller knows the circulation. T, SI. Thread: tissue task. Same input, same
 // bytes.
@@ -40,6 +40,8 @@ inline constexpr std::int32_t kFirstClipRefusal = 32;
 constexpr std::int32_t refusal_code(ClipRefusal refusal) {
   return refusal == ClipRefusal::kNone ? 0 : kFirstClipRefusal + static_cast<std::int32_t>(refusal);
 }
+/// There it also says that a clip came off a duct.
+inline constexpr std::int32_t kClipCameOff = kFirstClipRefusal + 17;
 /// What SurgeryState::refusal says, in words; empty for 0 and for a number that is none.
 std::string_view closing_words(std::int32_t refusal);
 
@@ -103,15 +105,15 @@ class DuctSystem {
   /// Share of a duct's lumen that the jaws press shut, and where. nullopt: they do not.
   std::optional<std::pair<double, double>> pressed(std::size_t duct) const;
   std::span<const DuctChange> changed() const { return changed_; }  ///< in the last step
-  /// What the closing of jaws in the last step came to: 0, or why nothing came of it (refusal_code).
+  /// What the closing of jaws in the last step came to: 0, or why nothing came of it (refusal_code); kClipCameOff.
   std::optional<std::int32_t> closing() const { return closing_; }
   /// Is one that carries nothing not yet divided?
   bool any_strand_whole() const;
   std::int32_t cuts() const { return cuts_; }  ///< with partial ones
   std::int32_t tears() const { return tears_; }
   std::int32_t clips() const { return clips_; }
-  std::int32_t refusals() const { return refusals_; }
-  std::int32_t bile_leaks() const;  ///< open ends and nicks from which bile comes now
+  std::int32_t refusals() const { return refusals_; }  ///< with clips that came off
+  std::int32_t bile_leaks() const;                     ///< open ends and nicks from which bile comes now
   double bile_ml() const { return bile_ml_; }
 
  private:
@@ -149,6 +151,7 @@ class DuctSystem {
   void change(const DuctChange& change);
   SolvedContacts contacts_of(std::size_t duct, const DuctContacts& contacts) const;
   void take_events();
+  void lose_clips(std::size_t duct);
   void follow();
   std::int32_t contact_vertex(std::size_t duct, std::int32_t vertex) const;
   static bool whole(const Duct& duct);

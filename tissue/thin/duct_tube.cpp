@@ -70,7 +70,7 @@ DuctChange parse_duct_change(std::string_view bytes) {
   DuctChange change;
   if (take_of_duct<std::int32_t>(bytes) != kDuctMark) throw InputError("a change of the tissue is not a duct's");
   const auto kind = take_of_duct<std::uint8_t>(bytes);
-  if (kind > static_cast<std::uint8_t>(DuctChange::Kind::kAvulsed)) throw InputError("a change of a duct is unknown");
+  if (kind > static_cast<std::uint8_t>(DuctChange::Kind::kUnclipped)) throw InputError("a change of a duct is unknown");
   change.kind = static_cast<DuctChange::Kind>(kind);
   change.duct = take_of_duct<std::int32_t>(bytes);
   change.arc_m = take_of_duct<double>(bytes);
@@ -105,6 +105,11 @@ bool DuctTube::apply(const DuctChange& change) {
     }
     case DuctChange::Kind::kAvulsed:
       return true;
+    case DuctChange::Kind::kUnclipped: {
+      const std::int32_t number = clips.number_at(change.arc_m);
+      clips.remove(number, rod, lumen);
+      return number > 0;
+    }
   }
   return false;
 }

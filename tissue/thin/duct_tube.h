@@ -22,7 +22,15 @@
 namespace trocar {
 
 struct DuctChange {
-  enum class Kind : std::uint8_t { kCut, kTorn, kNicked, kClipped, kSealed, kAvulsed } kind = Kind::kCut;
+  enum class Kind : std::uint8_t {
+    kCut,
+    kTorn,
+    kNicked,
+    kClipped,
+    kSealed,
+    kAvulsed,
+    kUnclipped,  ///< the clip at that arc came off
+  } kind = Kind::kCut;
   std::int32_t duct = 0;  ///< index in the scene
   double arc_m = 0;
   double share = 1;                      ///< of width or round

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tissue/thin/rod_contact.h"
 #include "tissue/thin/rod_in_jaws.h"
@@ -20,6 +21,7 @@ constexpr int kSpringAxes = 3;
 
 void RodGrip::let_go() {
   places_.clear();
+  clips_.clear();
   hold_ = {};
   block_ = {};
   pull_T_ = Vec3::Zero();
@@ -31,6 +33,23 @@ std::vector<double> RodGrip::arcs() const {
   std::vector<double> arcs;
   for (const Place& place : places_) arcs.push_back(place.arc_m);
   return arcs;
+}
+
+/// Those that lie on the pads where the rod would be if their springs were not stretched.
+void RodGrip::meet_clips(const Pose& X_TI, double opening_m, const ElasticRod& rod, std::span<const double> clips) {
+  const Pose X_IT = X_TI.inverse();
+  Vec3 behind_I = Vec3::Zero();
+  for (const Place& place : places_)
+    behind_I += (X_IT * rod.place_at(place.arc_m) - place.point_I) / static_cast<double>(places_.size());
+  const double aside = opening_m / 2 + rod.options().outer_radius_m + kBeyondPads;
+  const bool enters = options_.clip_legs_m <= 0 || opening_m >= 2 * rod.options().wall_m + options_.clip_legs_m;
+  std::vector<double> between;
+  for (const double arc : clips) {
+    const Vec3 p = X_IT * rod.place_at(arc) - behind_I;
+    const bool known = std::find(clips_.begin(), clips_.end(), arc) != clips_.end();
+    if (on_pads(p) && std::abs(p.y()) < aside && (known || enters)) between.push_back(arc);
+  }
+  clips_ = std::move(between);
 }
 
 void RodGrip::squeeze(double opening_m, const ElasticRod& rod, double length_m) {
@@ -47,6 +66,12 @@ void RodGrip::squeeze(double opening_m, const ElasticRod& rod, double length_m) 
     block_ = {2 * o.wall_m + ring * 2 * o.inner_radius_m() / hard, hard};
   }
   squeeze_n_ = block_.stiffness_n_per_m * std::max(0.0, block_.thickness_m - opening_m);
+  if (clips_.empty() || options_.clip_legs_m <= 0) return;
+  const GripBlock clip{2 * o.wall_m + options_.clip_legs_m, options_.most_stiffness_n_per_m};
+  const double on_clip = clip.stiffness_n_per_m * std::max(0.0, clip.thickness_m - opening_m);
+  if (on_clip <= squeeze_n_) return;
+  block_ = clip;
+  squeeze_n_ = on_clip;
 }
 
 void RodGrip::take(const Pose& X_TI, const ElasticRod& rod) {
@@ -65,7 +90,8 @@ bool RodGrip::on_pads(const Vec3& p) const {
          p.z() > -options_.pad_length_m - kBeyondPads;
 }
 
-void RodGrip::reach(const Pose& X_TI, double opening_m, const ElasticRod& rod, std::vector<RodSpring>& springs) {
+void RodGrip::reach(const Pose& X_TI, double opening_m, const ElasticRod& rod, std::vector<RodSpring>& springs,
+                    std::span<const double> clips) {
   if (!std::isfinite(opening_m) || !X_TI.R.allFinite() || !X_TI.p.allFinite()) return let_go();
   const JawSpace pads{options_.pad_length_m, options_.pad_width_m, opening_m};
   between_ = arcs_between(rod, X_TI, pads, kBeyondPads, kGripSampling);
@@ -75,6 +101,7 @@ void RodGrip::reach(const Pose& X_TI, double opening_m, const ElasticRod& rod, s
     if (between_.empty() || !enters) return let_go();
     state_ = GripState::kAround;
   }
+  meet_clips(X_TI, opening_m, rod, clips);
   squeeze(opening_m, rod, std::max(kGripSampling, length_between(rod, X_TI, pads, 0)));
   if (holding && squeeze_n_ < kKeepsRod) {
     let_go();

@@ -249,9 +249,7 @@ bool row_is(sqlite3* connection, const std::string& uuid, const Beginning& began
 /// Whether what is written now is signed with a key that the trail names.
 bool signs(sqlite3* connection) {
   const auto here = station_key(connection);
-  const std::vector<AnnouncedKey> keys = announced_keys(connection);
-  return here && std::any_of(keys.begin(), keys.end(),
-                             [own = here->public_key()](const AnnouncedKey& key) { return key.public_key == own; });
+  return here && is_named(*here, announced_keys(connection));
 }
 
 bool stands_before_the_first(sqlite3* connection) {

@@ -104,6 +104,10 @@ void write_station_key(const fs::path& database, const SigningKey& key) {
   }
 }
 
+bool is_named(const SigningKey& key, const std::vector<AnnouncedKey>& named) {
+  return std::ranges::find(named, key.public_key(), &AnnouncedKey::public_key) != named.end();
+}
+
 std::string lost_key(sqlite3* connection) {
   const char* file = sqlite3_db_filename(connection, "main");
   if (file == nullptr || *file == '\0') return "";
@@ -115,8 +119,7 @@ std::string lost_key(sqlite3* connection) {
            " is missing: what is written now is not signed, which db check tells for ever. "
            "Put it back, or make a new one with trocar db key --renew";
   const auto key = station_key(connection);
-  if (key &&
-      std::ranges::none_of(named, [own = key->public_key()](const AnnouncedKey& one) { return one.public_key == own; }))
+  if (key && !is_named(*key, named))
     return "its key " + name +
            " is not the one that signs this record: what is written now does not count. "
            "Put the right one back, or make a new one with trocar db key --renew";

@@ -39,6 +39,9 @@ struct AnnouncedKey {
 /// Beside a copy. @throws EnvironmentError.
 void write_station_key(const std::filesystem::path& database, const SigningKey& key);
 
+/// Whether it is one of them, so that what it signs now counts.
+bool is_named(const SigningKey& key, const std::vector<AnnouncedKey>& named);
+
 /// What to say where the record names a key and its file is gone or holds another, "" when it is there. @throws as
 /// station_key().
 std::string lost_key(sqlite3* connection);

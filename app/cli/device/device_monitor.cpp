@@ -37,9 +37,9 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 /// The loop on a simulated device that a hand leads through free air, or on a real one whose amplifiers stay off.
 class Bench {
  public:
-  explicit Bench(const MonitorOptions& options)
+  Bench(const MonitorOptions& options, const DeviceFiles& files)
       : backend_(make_backend(options.backend, {.simulated = device_of(options), .card = options.card})),
-        loop_(loop_of(options, backend_.daq->capabilities())),
+        loop_(loop_of(options, files, backend_.daq->capabilities())),
         patch_(std::make_unique<ContactPatch>()) {
     if (backend_.world) centre_ = goal_ = backend_.world->sense().X_BS;
   }
@@ -66,10 +66,10 @@ class Bench {
     for (const std::string& text : options.injections) config.faults.push_back(parse_injection(text));
     return config;
   }
-  static HapticLoopConfig loop_of(const MonitorOptions& options, const DaqCapabilities& daq) {
+  static HapticLoopConfig loop_of(const MonitorOptions& options, const DeviceFiles& files, const DaqCapabilities& daq) {
     HapticLoopConfig config;
     config.daq = daq;
-    config.device = device_model(read_device_files(options.calibration, options.device), options.backend);
+    config.device = device_model(files, options.backend);
     return config;
   }
 
@@ -239,12 +239,11 @@ int monitor(const MonitorOptions& options, std::ostream& out, std::ostream& err)
     throw InputError("--backend " + options.backend + ": runs by its own clock; leave --lockstep away");
   if (own_clock && !options.injections.empty())
     throw InputError("--backend " + options.backend + ": --inject is for simulated devices");
+  const DeviceFiles files = read_device_files(options.calibration, options.device);
   if (!own_clock)
-    for (const std::string& doubt :
-         device_doubts(read_device_files(options.calibration, options.device), simulated_plant_words(options.seed))) {
+    for (const std::string& doubt : device_doubts(files, simulated_plant_words(options.seed)))
       err << "trocar: " << doubt << '\n';
-    }
-  Bench bench(options);
+  Bench bench(options, files);
   const auto ticks_a_line = static_cast<int>(std::lround(options.rate_hz / kLinesHz));
   const auto lines = std::max<long>(1, std::lround(options.seconds * kLinesHz));
   if (own_clock) return watch_device(options, bench, lines, out, err);

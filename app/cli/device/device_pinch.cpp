@@ -16,6 +16,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/device/device_lanes.h"
+#include "app/cli/progress_display.h"
 #include "app/session/interrupt.h"
 #include "app/session/setup/device_files.h"
 #include "app/session/setup/true_plant.h"
@@ -159,15 +160,17 @@ class PinchLoopTask final : public Task {
 
 int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& err) {
   InterruptWatch interrupt;  // before a thread is started: it must inherit what is blocked
+  const auto interrupted = [&] { return interrupt.seen() || (options.interrupted && options.interrupted()); };
   PinchBench bench(options);
   PinchPrompts prompts(options, bench, out);
   PinchLoopTask loop(bench);
   if (bench.backend().world) {
-    for (prompts.run(0); !loop.finished() && !interrupt.seen(); prompts.run(0)) loop.run(0);
+    for (prompts.run(0); !loop.finished() && !interrupted(); prompts.run(0)) loop.run(0);
   } else {
-    run_device_lanes(bench.backend(), kPinchRateHz, loop, prompts, [&] { return interrupt.seen(); });
+    run_device_lanes(bench.backend(), kPinchRateHz, loop, prompts, interrupted);
   }
   if (bench.at() < kPoints.size()) {
+    if (!loop.finished()) throw Interrupted();
     err << "trocar: " << kPoints[bench.at()].words << ": not seen within " << options.limit_s << " s; it must rest for "
         << kHeld_s << " s, and lie " << kMoved << " counts from where it was before\n";
     return kNotFound;

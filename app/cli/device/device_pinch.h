@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <string>
 
@@ -20,10 +21,11 @@ struct PinchCommand {
   std::uint64_t seed = 1;
   std::filesystem::path plant = {}, out = {};
   bool json = false;
+  std::function<bool()> interrupted = {};  ///< besides Ctrl-C and SIGTERM
 };
 
 /// @param out what the person is to do, then what was found. @return 0, or 4 when a point was not seen within limit_s:
-/// nothing is written then. @throws InputError, EnvironmentError.
+/// nothing is written then. @throws InputError, EnvironmentError; Interrupted before the last point.
 int device_pinch(const PinchCommand& options, std::ostream& out, std::ostream& err);
 
 }  // namespace trocar

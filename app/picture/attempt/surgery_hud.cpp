@@ -63,7 +63,7 @@ void add_surgery_notices(const SessionView& view, std::vector<HudNotice>& notice
   const std::int32_t why = done.refusal;
   // What was refused to another instrument is not told of this one.
   const bool no_wound = why == static_cast<std::int32_t>(CutRefusal::kNoWound), of_duct = why >= kFirstClipRefusal;
-  const bool concerns = (kind == InstrumentKind::kScissors && !no_wound) ||
+  const bool concerns = why == kClipCameOff || (kind == InstrumentKind::kScissors && !no_wound) ||
                         (kind == InstrumentKind::kClipApplier && (no_wound || of_duct));
   if (concerns && why != 0 && view.tissue->t_s - done.refused_s < kTold_s)
     notices.push_back({refusal_told(kind, why), HudNotice::Kind::kWarning});

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/setup/force_scale.h"
+#include "app/session/setup/motor_pairs.h"
 #include "app/session/setup/patch_fit.h"
 #include "app/session/setup/placement.h"
 #include "app/session/setup/workspace_proof.h"
@@ -56,13 +57,10 @@ std::optional<DeviceFile> file_of(const nlohmann::json& setup, const char* key) 
 }
 
 MotorStates motors_of(const nlohmann::json& setup, const std::string& name) {
-  MotorStates motors;
-  if (!setup.contains("motors_c")) return motors;
-  const auto& listed = setup.at("motors_c");
-  if (listed.size() != motors.size()) throw InputError(name + kUnreadable + "motors_c is not one pair a motor");
-  for (std::size_t i = 0; i < motors.size(); ++i)
-    motors[i] = {listed.at(i).at(0).get<double>(), listed.at(i).at(1).get<double>()};
-  return motors;
+  if (!setup.contains(kMotorsKey)) return {};
+  const auto motors = motor_states(setup.at(kMotorsKey).get<MotorPairs>());
+  if (!motors) throw InputError(name + kUnreadable + kMotorsKey + " is not one pair a motor");
+  return *motors;
 }
 
 /// Every digit is kept: what is laid from it lies as before, to the last bit.
@@ -576,10 +574,7 @@ std::string scene_json(const Scene& scene) {
   if (is_real_device(s.backend)) json["backend"] = s.backend;  // it homes otherwise than a simulated one
   if (s.device.calibration) json["calibration"] = file_json(*s.device.calibration);
   if (s.device.identified) json["device"] = file_json(*s.device.identified);
-  if (scene.loop.motors != MotorStates{}) {
-    for (const MotorTemperatures& motor : scene.loop.motors)
-      json["motors_c"].push_back({motor.winding_c, motor.case_c});
-  }
+  if (scene.loop.motors != MotorStates{}) json[kMotorsKey] = motor_pairs(scene.loop.motors);
   return json.dump();
 }
 

@@ -16,6 +16,7 @@
 #include "haptics/device/backends/make_backend.h"
 #include "haptics/input_error.h"
 #include "scenarios/hands/make_hand.h"
+#include "trainees/files/free_room.h"
 
 namespace trocar {
 namespace {

@@ -1,7 +1,6 @@
 #include "app/window/attempt/disk_room.h"
 
-#include <limits>
-#include <system_error>
+#include <string>
 
 #include "haptics/input_error.h"
 
@@ -22,14 +21,6 @@ std::string mebibytes(std::uintmax_t bytes) {
 
 std::uintmax_t room_needed(double longest_s, double rate_hz) {
   return static_cast<std::uintmax_t>(kReserve + kMinute * (longest_s / 60) * (rate_hz / 1000));
-}
-
-std::uintmax_t room_free(const fs::path& folder) {
-  std::error_code error;
-  fs::path at = fs::absolute(folder.empty() ? fs::path(".") : folder, error);
-  while (!at.empty() && !fs::exists(at, error) && at != at.parent_path()) at = at.parent_path();
-  const fs::space_info space = fs::space(at, error);
-  return error ? std::numeric_limits<std::uintmax_t>::max() : space.available;
 }
 
 void require_room(const fs::path& folder, std::uintmax_t needed, std::uintmax_t free_bytes) {

@@ -12,9 +12,6 @@ namespace trocar {
 /// Bytes that an attempt may need. @param longest_s its loop time at most.
 std::uintmax_t room_needed(double longest_s, double rate_hz);
 
-/// Bytes free where the folder is, or will be; the largest number when the system does not tell.
-std::uintmax_t room_free(const std::filesystem::path& folder);
-
 /// @throws EnvironmentError that names folder, bytes and what to do, when `free_bytes` are fewer than `needed`.
 void require_room(const std::filesystem::path& folder, std::uintmax_t needed, std::uintmax_t free_bytes);
 

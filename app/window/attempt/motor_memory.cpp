@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/session/setup/motor_pairs.h"
 #include "haptics/input_error.h"
 #include "trainees/files/owner_file.h"
 #include "trainees/files/write_file.h"
@@ -35,12 +36,11 @@ std::optional<Kept> kept_in(const std::filesystem::path& file) {
   if (!in) return std::nullopt;
   try {
     const auto json = nlohmann::json::parse(in);
-    Kept out;
-    for (std::size_t i = 0; i < out.motors.size(); ++i) {
-      const auto& motor = json.at("motors_c").at(i);
-      out.motors[i] = {motor.at(0).get<double>(), motor.at(1).get<double>()};
-      if (std::max(std::abs(out.motors[i].winding_c), std::abs(out.motors[i].case_c)) > kNoMotor_c) return std::nullopt;
-    }
+    const auto motors = motor_states(json.at(kMotorsKey).get<MotorPairs>());
+    if (!motors) return std::nullopt;
+    for (const MotorTemperatures& motor : *motors)
+      if (std::max(std::abs(motor.winding_c), std::abs(motor.case_c)) > kNoMotor_c) return std::nullopt;
+    Kept out{.motors = *motors};
     const bool same_start = json.at("boot").get<std::string>() == this_process().boot;
     out.ago_s = same_start ? since_boot_s() - json.at("since_boot_s").get<double>()
                            : calendar_s() - json.at("calendar_s").get<double>();
@@ -72,9 +72,10 @@ MotorStates MotorMemory::now() const {
 }
 
 void MotorMemory::keep(const MotorStates& motors) const {
-  nlohmann::json json = {
-      {"boot", this_process().boot}, {"since_boot_s", since_boot_s()}, {"calendar_s", std::round(calendar_s())}};
-  for (const MotorTemperatures& motor : motors) json["motors_c"].push_back({motor.winding_c, motor.case_c});
+  const nlohmann::json json = {{"boot", this_process().boot},
+                               {"since_boot_s", since_boot_s()},
+                               {"calendar_s", std::round(calendar_s())},
+                               {kMotorsKey, motor_pairs(motors)}};
   if (!make_owner_folders(file_.parent_path()))
     throw EnvironmentError(file_.parent_path().string() + ": cannot be made");
   std::filesystem::path fresh = file_;

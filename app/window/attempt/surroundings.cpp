@@ -24,6 +24,7 @@ constexpr double kPressed = 0.008;      // m that open jaws are pressed on tissu
 constexpr double kTissueSpeed = 0.015;  // m/s, with it under or between the jaws
 constexpr double kOnDisc = 0.8, kLeavesDisc = 1.6;  // of its radius: the tip goes down to it, and up again
 constexpr double kHangs = 0.002;                    // m of a block over the board before it is let go: no fall
+constexpr double kInUse_n = 0.05;                   // on an instrument that stands in what it touches
 enum GroundNumber : int {
   kStartGround = 1,
   kWorkGround = 2,
@@ -36,6 +37,12 @@ enum GroundNumber : int {
   kLiftGround = 700,
   kAnswerGround = 800
 };
+
+/// A needle that is in no tissue is carried out with its driver.
+bool holds_something(const TissueFrame& tissue) {
+  const bool carries = tissue.suture.held && tissue.needle.bite_count == 0;
+  return tissue.held() && !carries;
+}
 
 /// With the jaws round what is touched, too: it is named by them.
 bool asks_to_grip(const DirectorStatus& status) {
@@ -168,6 +175,7 @@ AtHand Surroundings::around(const RunMoment& moment, const HandIntent& hand) {
   if (out.touching) out.force_n = record.stylus.F_I_T.force.norm();
   out.grip_n = record.stylus.grip_force_n;
   out.gripping = out.grip_n > 0;
+  out.in_use = out.force_n > kInUse_n || holds_something(moment.tissue);
   out.scope = is_scope(s.scene.setup.exercise);
   if (out.scope) return out;  // it moves along what it sees
   if (!s.scene.level.pointer.glide && !waits_for_start(status.phase)) return out;

@@ -39,12 +39,14 @@ void JawFingers::advance(const Wish& wish, double dt_s) {
     opening_m_ = std::max(opening_m_ - follows, wish.fingers_m - kAhead_m);
   }
   if (opening_) opening_m_ = finger_toward(opening_m_, widest_m_, step);
+  opening_m_ = std::min(opening_m_, widest_m_);  // fingers on a device may be farther apart
 }
 
 void JawFingers::work(const Work& wish, double dt_s) {
   const double to = wish.close ? kTightest_m : wish.shut ? 0 : widest_m_;
   opening_m_ = finger_toward(opening_m_, to, kWorkSpeed_m_per_s * dt_s);
   if (wish.close && wish.gripping) opening_m_ = std::max(opening_m_, wish.fingers_m - kAhead_m);
+  opening_m_ = std::min(opening_m_, widest_m_);
   used_ = opening_ = false;
 }
 

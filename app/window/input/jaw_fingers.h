@@ -35,6 +35,7 @@ class JawFingers {
     double fingers_m = 0.02;  ///< opening that the hand has reached
   };
   void work(const Work& wish, double dt_s);
+  /// From kTightest_m to what begin() was given, at least 20 mm.
   double opening_m() const { return opening_m_; }
 
  private:

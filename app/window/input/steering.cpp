@@ -126,6 +126,9 @@ struct Steering::State {
   double wheel_m = 0, roll_wheel = 0, scope_wheel = 0;
   bool exchange_pressed = false;  ///< however short
   bool closed_by_key = false;     ///< the jaws, in the last step
+  // the exchange switch
+  bool exchange_down = false, exchange_refused = false;  ///< in the last step; since it is down
+  bool refuses_exchange = false;                         ///< in the last step
 
   bool on(Action action) const { return held.contains(action); }
   bool pad_on(std::uint32_t button) const { return (pad_buttons & button) != 0; }
@@ -444,7 +447,10 @@ struct Steering::State {
 
   void hold_switches(const AtHand& around) {
     intent.pedal = on(Action::kPedal) || (around.in_tissue && pad[4] > kTrigger);
-    intent.exchange = std::exchange(exchange_pressed, false) || on(Action::kExchange) || pad_on(kPadRightThumb);
+    const bool down = std::exchange(exchange_pressed, false) || on(Action::kExchange) || pad_on(kPadRightThumb);
+    refuses_exchange = down && !std::exchange(exchange_down, down) && around.in_use;
+    exchange_refused = down && (exchange_refused || refuses_exchange);
+    intent.exchange = down && !exchange_refused;
   }
 
   /// Where the act button closes the jaws their own key does so, too, and let go it opens them as ever.
@@ -521,6 +527,7 @@ const HandIntent& Steering::advance(double dt_s, const Camera& camera, double he
 }
 
 const HandIntent& Steering::intent() const { return state_->intent; }
+bool Steering::refuses_exchange() const { return state_->refuses_exchange; }
 InputKind Steering::kind() const { return state_->kind; }
 std::optional<Vec3> Steering::foot_T() const {
   return state_->ground > 0 ? std::optional(state_->foot_T) : std::nullopt;

@@ -9,9 +9,9 @@
 // One button acts: it presses the closed tip on to what lies below and into it, or closes the jaws where something is
 // to be gripped. Held, the force grows; let go, it stays, also on tissue that relaxes; a click lets off. Over a ground
 // the tip glides at a height. Where instruments are worked in tissue the jaws have a control of their own: held, they
-// close, and let go, they open; act presses with closed jaws. Pedal and exchange switch are handed on as they are held.
-// Frame T, m, rad. Same events and same steps give the same intents. Thread: the
-// window's.
+// close, and let go, they open; act presses with closed jaws. Pedal and exchange switch are handed on as they are held,
+// but that no instrument is exchanged which presses or holds something: the next one would stand in the tissue.
+// Frame T, m, rad. Same events and same steps give the same intents. Thread: the window's.
 #pragma once
 
 #include <memory>
@@ -45,6 +45,7 @@ struct AtHand {
   double force_n = 0;                   ///< and how hard
   bool gripping = false;                ///< so do the jaws,
   double grip_n = 0;                    ///< and how hard
+  bool in_use = false;                  ///< the instrument presses or holds something: it is not exchanged
   bool scope = false;                   ///< it is the scope: leaning turns the view to where the hand goes
   const GlideGround* ground = nullptr;  ///< to glide over
 };
@@ -67,6 +68,8 @@ class Steering {
   const HandIntent& advance(double dt_s, const Camera& camera, double height_px, const AtHand& around = {});
   const HandIntent& intent() const;
 
+  /// Whether the exchange switch has just been pressed in vain. A press that was refused stays so until it is let go.
+  bool refuses_exchange() const;
   InputKind kind() const;  ///< what moved the hand last
   /// Below the tip on the ground that it glides over; nothing: it moves along the view.
   std::optional<Vec3> foot_T() const;

@@ -26,7 +26,7 @@ std::vector<Row> rows(const Translator& w) {
           {"fault", Tone::kFault, w("Three falling notes"), w("The device has a fault; the run stops.")},
           {"done", Tone::kDone, w("Four rising notes"), w("The run is over.")},
           {"force", HeldTone::kForce, w("Hum that rises"), w("The force is over its band, up to the limit.")},
-          {"cautery", HeldTone::kCautery, w("Buzz"), w("Cautery acts. No exercise has an energy instrument yet.")}};
+          {"cautery", HeldTone::kCautery, w("Buzz"), w("Current flows into tissue.")}};
 }
 
 void hold(Sound& sound, HeldTone tone, double level) {

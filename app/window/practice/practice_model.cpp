@@ -289,6 +289,7 @@ std::string PracticeModel::State::backend() const {
 }
 
 std::string PracticeModel::backend() const { return state_->backend(); }
+const DeviceFiles& PracticeModel::device_files() const { return state_->device; }
 
 std::string PracticeModel::locked() const {
   const std::vector<ExerciseLevel>& levels = exercise().levels;

@@ -122,6 +122,8 @@ class PracticeModel {
   bool at_pointer() const;
   /// Device of the next attempt, by its back-end's name.
   std::string backend() const;
+  /// What the options name of it, as it was read at the beginning.
+  const DeviceFiles& device_files() const;
   /// Why the chosen level is locked, and what opens it; empty: it is open. A demonstration may show any.
   std::string locked() const;
   /// Starts one at what is chosen, with a fresh board; a locked level is refused. @return what hindered it, empty when

@@ -95,6 +95,8 @@ struct RunScreen::State {
   void lay_out(const Hud& hud, PracticeModel& model, int width, int height);
   void pause(PracticeModel& model, bool paused);
   void mark(PracticeModel& model) const;
+  std::vector<HudBox> messages() const;
+  std::vector<HudBox> over_picture() const;
   void rim_arrow(double angle_rad, double size, Ink colour, double within = 0) const;
   std::optional<ScreenName> pause_panel(Ui& ui, PracticeModel& model);
   ScreenName back() const { return play == Play::kAttempt ? ScreenName::kBriefing : ScreenName::kStart; }
@@ -189,6 +191,7 @@ void RunScreen::State::steer(PracticeModel& model) {
   const RunMoment& now = run.newest();
   const AtHand around = surroundings->around(now, run.target());
   const std::uint64_t number = run.steer(hand.advance(dt_s, seen_by(model), picture.height, around));
+  if (hand.refuses_exchange()) model.notice = model.words()("Let go and draw back before you change instruments.");
   stop_scope(model);
   if (event_s > 0) latency.steered(number, event_s);
   event_s = 0;
@@ -569,14 +572,26 @@ void RunScreen::State::key_hints(Ui& ui, const PracticeModel& model) const {
   }
 }
 
+std::vector<HudBox> RunScreen::State::messages() const {
+  std::vector<HudBox> out;
+  for (const HudShape& shape : layout.shapes)
+    if (shape.kind == HudShape::Kind::kToast) out.push_back(shape.box);
+  if (hints_at) out.push_back(*hints_at);
+  return out;
+}
+
+/// Messages, and the display beside them.
+std::vector<HudBox> RunScreen::State::over_picture() const {
+  std::vector<HudBox> out = messages();
+  for (const HudShape& shape : layout.shapes)
+    if (shape.kind == HudShape::Kind::kPanel) out.push_back(shape.box);
+  return out;
+}
+
 /// At the rim of the round field, and clear of the messages that lie over it.
 void RunScreen::State::rim_arrow(double angle_rad, double size, Ink colour, double within) const {
-  std::vector<HudBox> messages;
-  for (const HudShape& shape : layout.shapes)
-    if (shape.kind == HudShape::Kind::kToast) messages.push_back(shape.box);
-  if (hints_at) messages.push_back(*hints_at);
   draw_rim_arrow(picture.x + 0.5 * picture.width, picture.y + 0.5 * picture.height,
-                 rim_reach(picture, angle_rad, size, messages) - within, angle_rad, size, colour);
+                 rim_reach(picture, angle_rad, size, messages()) - within, angle_rad, size, colour);
 }
 
 std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double dt_s) {
@@ -594,7 +609,7 @@ std::optional<ScreenName> RunScreen::frame(Ui& ui, PracticeModel& model, double 
   }
   if (s.play != Play::kAttempt && !s.overlay && ui.pressed("Esc")) return s.ended(model);
   s.hints.pass(dt_s);
-  if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide);
+  if (!s.overlay) paint_tip_guide(ui, ScopeOptics(s.seen, s.picture), s.guide, s.over_picture());
   draw_hud(ui, s.layout);
   if (!s.overlay) s.hint_panel(ui, model);
   const double arrow = ui.px(26);

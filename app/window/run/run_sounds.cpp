@@ -9,6 +9,7 @@ namespace trocar {
 
 namespace {
 
+constexpr double kBuzz = 0.7;        // level
 constexpr double kArmedAgain = 0.9;  // of the band's upper end, below which the next crossing warns again
 
 bool by_grip(const Scene& scene, const DirectorStatus& status) {
@@ -60,6 +61,7 @@ void RunSounds::hear(const Scene& scene, const RunMoment& moment, Sound& sound) 
     if (ended && !ended_) sound.play(Tone::kDone);
   }
   sound.hold_force(over);
+  sound.hold_cautery(moment.record.stylus.pedal && moment.tissue.surgery.contact_c > 0 ? kBuzz : 0);
   any_ = true;
   contact_ = contact;
   done_ = status.targets_done;

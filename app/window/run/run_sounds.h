@@ -11,7 +11,10 @@ class RunSounds {
   /// Tones between the moment heard last and this one.
   void hear(const Scene& scene, const RunMoment& moment, Sound& sound);
   /// Nothing lasts: a pause, or the end.
-  static void hush(Sound& sound) { sound.hold_force(0); }
+  static void hush(Sound& sound) {
+    sound.hold_force(0);
+    sound.hold_cautery(0);
+  }
 
  private:
   /// A force passes the end of its band, the port holds the instrument back, or an object was not done in its time.

@@ -98,24 +98,29 @@ void paint_lit(Ui& ui, const ScopeOptics& optics, const Line& line) {
   if (seen.size() == line.size()) ui.paint_outlined(seen, Ink::kAccent, 3);
 }
 
-/// Below what is lit, or above it where it would hide the tip.
-void paint_to_go(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
-  double x = 0, top = 1e9, bottom = 0;
+bool meet(const HudBox& a, const HudBox& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+HudBox wider(const HudBox& box, double by) { return {box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by}; }
+
+void paint_to_go(Ui& ui, const ScopeOptics& optics, const TipGuide& guide, const std::vector<HudBox>& messages) {
+  double left = 1e9, right = 0, top = 1e9, bottom = 0;
   for (const Vec3& p : guide.lit_T.front()) {
     const auto at = optics.project(p);
     if (!at) return;
-    x += at->x() / static_cast<double>(guide.lit_T.front().size());
+    left = std::min(left, at->x());
+    right = std::max(right, at->x());
     top = std::min(top, at->y());
     bottom = std::max(bottom, at->y());
   }
-  const double wide = ui.text_width(guide.to_go), high = ui.line_height() + ui.px(14);
-  const auto tip = optics.project(guide.tip_T);
-  const bool hides = tip && std::abs(tip->x() - x) < 0.5 * wide + ui.px(12) && tip->y() > bottom - ui.px(4) &&
-                     tip->y() < bottom + high + ui.px(12);
-  const double y = hides ? top - high : bottom + ui.px(10);
-  ui.paint_ground({x - 0.5 * wide - ui.px(6), y - ui.px(2), wide + ui.px(12), ui.line_height() + ui.px(4)}, 0.8,
-                  ui.px(4));
-  ui.text_at(x, y, guide.to_go, Ink::kText, 0, 0.5);
+  const double side = ui.px(6), edge = ui.px(2);
+  const HudBox lit = wider({left, top, right - left, bottom - top}, ui.px(8));
+  const HudBox words{0, 0, ui.text_width(guide.to_go) + 2 * side, ui.line_height() + 2 * edge};
+  const auto at = place_words(lit, words, optics.project(guide.tip_T), {0, 0, ui.width(), ui.height()}, messages);
+  if (!at) return;
+  ui.paint_ground({at->x, at->y, at->width, at->height}, 0.8, ui.px(4));
+  ui.text_at(at->x + side, at->y + edge, guide.to_go, Ink::kText);
 }
 
 }  // namespace
@@ -152,9 +157,36 @@ std::vector<Line> lit_outline(const SessionView& view, const Camera& camera) {
   return {circle(d.centre_T, d.normal_T, d.radius_m + kRoundDisc)};
 }
 
-void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide) {
+std::optional<HudBox> place_words(const HudBox& lit, const HudBox& words, const std::optional<Eigen::Vector2d>& tip,
+                                  const HudBox& window, const std::vector<HudBox>& messages) {
+  const double x = lit.x + 0.5 * (lit.width - words.width), y = lit.y + 0.5 * (lit.height - words.height);
+  std::vector<Eigen::Vector2d> places{
+      {x, lit.bottom()}, {x, lit.y - words.height}, {lit.right(), y}, {lit.x - words.width, y}};
+  for (const HudBox& message : messages) {
+    places.emplace_back(x, message.bottom());
+    places.emplace_back(x, message.y - words.height);
+  }
+  std::optional<HudBox> best;
+  int least = 0;
+  for (const Eigen::Vector2d& place : places) {
+    const HudBox box{place.x(), place.y(), words.width, words.height};
+    const bool inside =
+        box.x >= window.x && box.y >= window.y && box.right() <= window.right() && box.bottom() <= window.bottom();
+    if (!inside || std::any_of(messages.begin(), messages.end(), [&](const HudBox& m) { return meet(box, m); }))
+      continue;
+    const HudBox near_tip = wider(box, 0.5 * words.height);
+    const bool hides_tip = tip && meet(near_tip, {tip->x(), tip->y(), 0, 0});
+    const int hides = (hides_tip ? 1 : 0) + (meet(box, lit) ? 1 : 0);
+    if (best && hides >= least) continue;
+    best = box;
+    least = hides;
+  }
+  return best;
+}
+
+void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide, const std::vector<HudBox>& messages) {
   for (const Line& line : guide.lit_T) paint_lit(ui, optics, line);
-  if (!guide.to_go.empty() && !guide.lit_T.empty()) paint_to_go(ui, optics, guide);
+  if (!guide.to_go.empty() && !guide.lit_T.empty()) paint_to_go(ui, optics, guide, messages);
   if (guide.foot_T) paint_plumb(ui, optics, guide.plumb_T.value_or(guide.tip_T), *guide.foot_T);
   const auto tip = optics.project(guide.tip_T);
   if (!tip) return;

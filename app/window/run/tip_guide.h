@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/display/hud_layout.h"
 #include "app/picture/scene/scope_optics.h"
 #include "app/session/session.h"
 
@@ -38,6 +39,15 @@ std::vector<std::vector<Vec3>> lit_outline(const SessionView& view, const Camera
 /// Middle of its first line.
 Vec3 middle_of(const std::vector<std::vector<Vec3>>& lit_T);
 
-void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide);
+/// Where words stand by what is lit, px: below it, above, right, left, else below or above a message; where they
+/// neither hide the tip nor it, if there is such a place. Never over a message or out of the window.
+/// @param lit, words  without and with their margins; of `words` the size counts
+/// @return nothing: there is no room
+std::optional<HudBox> place_words(const HudBox& lit, const HudBox& words, const std::optional<Eigen::Vector2d>& tip,
+                                  const HudBox& window, const std::vector<HudBox>& messages);
+
+/// @param messages that are drawn over it: no word lies under one
+void paint_tip_guide(Ui& ui, const ScopeOptics& optics, const TipGuide& guide,
+                     const std::vector<HudBox>& messages = {});
 
 }  // namespace trocar

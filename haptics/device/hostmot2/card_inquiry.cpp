@@ -38,7 +38,11 @@ void add_counter_read(lbp16::Datagram& to) {
 }
 
 CardInquiry::CardInquiry(const std::string& card, double wait_s)
-    : name_("card " + card), wait_s_(wait_s), link_(card), claim_(link_, name_), counter_(std::random_device()()) {}
+    : name_("card " + card),
+      wait_s_(wait_s),
+      link_(card, name_),
+      claim_(link_, name_),
+      counter_(std::random_device()()) {}
 
 /// One register, before the loop begins.
 std::uint32_t CardInquiry::ask(std::uint16_t address) {

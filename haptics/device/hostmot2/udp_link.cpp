@@ -20,7 +20,7 @@
 namespace trocar {
 namespace {
 
-sockaddr_in address_of(const std::string& text) {
+sockaddr_in address_of(const std::string& text, const std::string& name) {
   sockaddr_in out = {};
   out.sin_family = AF_INET;
   const std::size_t colon = text.find(':');
@@ -29,23 +29,23 @@ sockaddr_in address_of(const std::string& text) {
     const char *begin = text.data() + colon + 1, *end = text.data() + text.size();
     const auto read = std::from_chars(begin, end, port);
     if (read.ec != std::errc{} || read.ptr != end || port == 0)
-      throw InputError("card " + text + ": behind the colon a port from 1 to 65535 is expected");
+      throw InputError(name + ": behind the colon a port from 1 to 65535 is expected");
   }
   out.sin_port = htons(port);
   if (inet_pton(AF_INET, text.substr(0, colon).c_str(), &out.sin_addr) != 1)
-    throw InputError("card " + text + ": an address such as 192.168.1.121 is expected");
+    throw InputError(name + ": an address such as 192.168.1.121 is expected");
   return out;
 }
 
 }  // namespace
 
-UdpLink::UdpLink(const std::string& address) {
-  const sockaddr_in peer = address_of(address);
+UdpLink::UdpLink(const std::string& address, const std::string& name) {
+  const sockaddr_in peer = address_of(address, name);
   socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket_ < 0 || ::connect(socket_, reinterpret_cast<const sockaddr*>(&peer), sizeof peer) != 0) {
     const std::string why = std::strerror(errno);
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));
-    throw EnvironmentError("card " + address + ": no way to it: " + why);
+    throw EnvironmentError(name + ": no way to it: " + why);
   }
 }
 

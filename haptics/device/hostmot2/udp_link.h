@@ -1,4 +1,4 @@
-// A UDP socket with one peer, for a card on the network or its fake.
+// A UDP socket with one peer on the network: a card, a force sensor's box, or a fake of one.
 //
 // Thread: one at a time. send() and receive() neither allocate, lock nor throw.
 #pragma once
@@ -12,9 +12,9 @@ namespace trocar {
 
 class UdpLink {
  public:
-  /// @param address "192.168.1.121" or "192.168.1.121:27181". @throws InputError: no such address; EnvironmentError: no
-  /// socket, no way to it.
-  explicit UdpLink(const std::string& address);
+  /// @param address "192.168.1.121" or "192.168.1.121:27181". @param name of the peer in words, for messages. @throws
+  /// InputError: no such address; EnvironmentError: no socket, no way to it.
+  UdpLink(const std::string& address, const std::string& name);
   /// Of a peer: listens on the loopback, on a free port, and answers whoever sent last.
   static UdpLink on_loopback();
   ~UdpLink();

@@ -20,7 +20,7 @@ std::string udp_of(const NetFtAddress& box) { return box.host + ":" + std::to_st
 }  // namespace
 
 NetFt::NetFt(const std::string& box, const WrenchStreamOptions& options)
-    : WrenchStream(options), link_(udp_of(net_ft_address(box))) {
+    : WrenchStream(options), link_(udp_of(net_ft_address(box)), "force sensor net-ft:" + box) {
   start();
 }
 

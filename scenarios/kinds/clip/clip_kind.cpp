@@ -57,9 +57,16 @@ void read_clip_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel& l
   level.own = std::make_shared<const ClipLevel>(own);
 }
 
-/// Where a structure was divided, what was left out there is not undone: its clips have been judged.
+/// What came off is not done. Where a structure was divided, what was left out there is not undone: its clips have been
+/// judged.
 void account_aims(const Board& board, const std::vector<Event>& events, ScoringContext& context) {
-  std::vector<Event> done = events;
+  std::vector<Event> done;
+  for (const Event& event : events) {
+    if (event.type == event_type::kClipWasted && event.object >= 0)
+      std::erase_if(
+          done, [&](const Event& held) { return held.type == event_type::kTargetHeld && held.object == event.object; });
+    done.push_back(event);
+  }
   for (const Event& event : events) {
     if (event.type != event_type::kDivided) continue;
     for (int clip = 0; clip < kClipsEach; ++clip) {

@@ -184,17 +184,24 @@ void ClipTask::judge_opening(const DuctMark& opening, std::span<const DuctMark> 
   finish_step(aim, log);
 }
 
-void ClipTask::follow_marks(std::span<const DuctMark> marks, EventLog& log) {
+void ClipTask::follow_losses(std::span<const DuctMark> marks, EventLog& log) {
   for (auto known = known_.begin(); known != known_.end();) {
-    if (std::find(marks.begin(), marks.end(), known->mark) != marks.end()) {
+    const bool is_clip = known->mark.kind == DuctMark::Kind::kClip;
+    if (!is_clip || std::find(marks.begin(), marks.end(), known->mark) != marks.end()) {
       ++known;
       continue;
     }
-    log.add(event_type::kClipWasted, Severity::kMinor, known->aim, known->mark.arc_m, "m");
-    blame({"A clip came off", "Pull less on what is clipped."}, log);
+    if (known->mark.duct < kClipStructures) {
+      log.add(event_type::kClipWasted, Severity::kMinor, known->aim, known->mark.arc_m, "m");
+      blame({"A clip came off", "Pull less on what is clipped."}, log);
+    }
     if (known->aim >= 0) done_.reset(static_cast<std::size_t>(known->aim));
     known = known_.erase(known);
   }
+}
+
+void ClipTask::follow_marks(std::span<const DuctMark> marks, EventLog& log) {
+  follow_losses(marks, log);
   for (const DuctMark& mark : marks) {
     const bool judged =
         std::any_of(known_.begin(), known_.end(), [&](const Known& known) { return known.mark == mark; });
@@ -204,6 +211,12 @@ void ClipTask::follow_marks(std::span<const DuctMark> marks, EventLog& log) {
     else
       judge_opening(mark, marks, log);
   }
+}
+
+void ClipTask::keep_watch(const TaskInput& input, EventLog& log) {
+  if (!input.tissue) return;
+  const TissueFrame& frame = *input.tissue;
+  follow_losses(std::span(frame.duct_mark).first(static_cast<std::size_t>(frame.duct_mark_count)), log);
 }
 
 void ClipTask::update(const TaskInput& input, EventLog& log) {

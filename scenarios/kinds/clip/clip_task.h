@@ -5,8 +5,9 @@
 // tips, keeps its distance from the clips that are there and from what must be spared; and three of each structure do.
 // It belongs to the nearest free place that was asked for; one that does not count spends that place: nothing is asked
 // for there any more, but a good clip beside it still fills it. Clips may be set and structures cut in any order; which
-// is asked for next is the first that is missing. Naming: the closed grasper touches the structure for a time; while
-// clutch or port stand the instrument still no time counts.
+// is asked for next is the first that is missing. A clip that comes off counts no longer; of one on what must be spared
+// nobody is told here. Once all is done, and other parts of the run follow, clips are still watched. Naming: the closed
+// grasper touches the structure for a time; while clutch or port stand the instrument still no time counts.
 //
 // Events: TARGET_LIT, TARGET_HELD (s since lit) of each step; NAMED (s of touch); WRONG_STRUCTURE: another than asked
 // was touched so long (index of the duct), critical when a clip or cut lies on what must be spared (m along it);
@@ -34,6 +35,7 @@ class ClipTask final : public ExerciseTask {
   ClipTask(const Exercise& exercise, const ExerciseLevel& level, const Board& board);
   void begin(EventLog& log) override;
   void update(const TaskInput& input, EventLog& log) override;
+  void keep_watch(const TaskInput& input, EventLog& log) override;
   bool finished() const override { return asked_ >= kClipAims; }
   std::int32_t object() const override { return finished() ? -1 : asked_; }
   void describe(const TaskInput& input, DirectorStatus& status) const override;
@@ -56,6 +58,7 @@ class ClipTask final : public ExerciseTask {
   bool in_hand(const StylusState& stylus, InstrumentKind kind) const;
   void follow_touch(const TaskInput& input, EventLog& log);
   void follow_refusals(const SurgeryState& surgery, EventLog& log);
+  void follow_losses(std::span<const DuctMark> marks, EventLog& log);
   void follow_marks(std::span<const DuctMark> marks, EventLog& log);
   void judge_clip(const DuctMark& clip, EventLog& log);
   void judge_opening(const DuctMark& opening, std::span<const DuctMark> marks, EventLog& log);

@@ -22,6 +22,14 @@ void StageTask::begin(EventLog& log) {
   number_events(log, from);
 }
 
+void StageTask::keep_watch(const TaskInput& input, EventLog& log) {
+  if (!input.tissue) return;
+  const TissueFrame own = frame_of(range_, *input.tissue);
+  const std::size_t from = log.events.size();
+  part_->keep_watch({input.stylus, &own, input.dt_s, input.too_hard}, log);
+  number_events(log, from);
+}
+
 void StageTask::update(const TaskInput& input, EventLog& log) {
   told_ = input.tissue != nullptr;
   if (told_) seen_ = frame_of(range_, *input.tissue);

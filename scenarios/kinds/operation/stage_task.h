@@ -18,6 +18,7 @@ class StageTask final : public ExerciseTask {
   StageTask(const Exercise& operation, const StageRange& range, std::unique_ptr<ExerciseTask> part);
   void begin(EventLog& log) override;
   void update(const TaskInput& input, EventLog& log) override;
+  void keep_watch(const TaskInput& input, EventLog& log) override;
   bool finished() const override { return part_->finished(); }
   std::int32_t object() const override;
   void describe(const TaskInput& input, DirectorStatus& status) const override;

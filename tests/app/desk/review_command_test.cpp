@@ -27,6 +27,12 @@ TEST(PasswordPrompt, TakesTheFirstLine) {
   EXPECT_EQ(err.str(), "");
 }
 
+TEST(ReviewServe, SaysHowLittleRoomThereIsToWrite) {
+  EXPECT_EQ(little_room("/data", 40'000'000), "");
+  EXPECT_EQ(little_room("/data", 340'000).find("/data: the disk is nearly full, 340.0 kB are free: "), 0U);
+  EXPECT_EQ(little_room("/data", 0).find("/data: the disk is nearly full, 0 B are free: "), 0U);
+}
+
 class ReviewAccounts : public testing::Test {
  protected:
   int add(const std::string& login, const std::string& role, const std::string& password,

@@ -107,8 +107,36 @@ TEST(OrganAgain, AnInputOrADamagedOldManifestLosesNothing) {
   ball.change("out.organ.toml");
   ball.folder.write("out.organ.toml", "no manifest");
   ball.options.tetrahedra_mm = 0;
+  EXPECT_CONTAINS(test::message_of<InputError>([&] { ball.imported(); }), "out.ply: is there already");
+  fs::remove(ball.folder / "out.ply");
   ball.imported();
   EXPECT_TRUE(fs::exists(ball.folder / "out.msh"));
+}
+
+/// What lies there under a name that the import wants stays, and nothing else is written.
+TEST(OrganAgain, FilesOfSomebodyElseAreNotOverwritten) {
+  for (const bool scene : {false, true}) {
+    Ball ball;
+    if (scene) ball.options.label = {"1", "2"};
+    ball.options.report = ball.folder / "page.html", ball.options.lattice_mm = 10;
+    const std::string stem = scene ? "out-label-2" : "out";
+    std::vector<std::string> wanted{stem + ".ply", stem + ".lattice", "page.html"};
+    if (scene) wanted.push_back(stem + ".organ.toml");
+    for (const std::string& name : wanted) {
+      ball.folder.write(name, "mine");
+      EXPECT_CONTAINS(test::message_of<InputError>([&] { ball.imported(); }),
+                      name + ": is there already; it is not overwritten");
+      EXPECT_EQ(ball.files(), (Names{"map.nii.gz", name}));
+      EXPECT_EQ(read_bytes(ball.folder / name), "mine");
+      fs::remove(ball.folder / name);
+    }
+    ball.imported();
+    const Names made = ball.files();
+    ball.imported();
+    EXPECT_EQ(ball.files(), made) << "its own files, the page among them, are made again";
+    ball.options.output = (ball.folder / "another").string(), ball.options.name = "another";
+    EXPECT_CONTAINS(test::message_of<InputError>([&] { ball.imported(); }), "page.html: is there already");
+  }
 }
 
 TEST(OrganSideFiles, AChangedLatticeIsFoundByInfoAndPackage) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -77,6 +78,31 @@ TEST(OrganExport, AFileSaysItsAxesUnitAndOrigin) {
   in.read(text.data(), 600);
   EXPECT_NE(text.find("comment SPACE=RAS UNIT=mm\n"), std::string::npos) << text.substr(0, 300);
   EXPECT_NE(text.find("(synthetic), licence "), std::string::npos) << text.substr(0, 300);
+}
+
+TEST(OrganExport, APlyTellsNameAndMaterialToTheImportAndOthersCommentsDoNot) {
+  const test::TemporaryFolder folder;
+  const Organ organ = load_organ(find_organ("phantom-gallbladder", kAssets));
+  exported("phantom-gallbladder", folder / "g.ply");
+  OrganImportOptions options;
+  options.input = (folder / "g.ply").string();
+  options.output = (folder / "back").string();
+  std::ostringstream out, err;
+  EXPECT_EQ(organ_import(options, out, err), 0) << err.str();
+  const Organ back = load_organ(options.output + ".organ.toml");
+  EXPECT_EQ(back.name, organ.name);
+  EXPECT_EQ(back.material, organ.material);
+  options.name = "sac";
+  EXPECT_EQ(organ_import(options, out, err), 0) << err.str();
+  EXPECT_EQ(load_organ(options.output + ".organ.toml").material, "sac") << "the user's word";
+  options.name.clear();
+  std::ifstream in(folder / "g.ply", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  for (std::size_t at; (at = bytes.find("comment TROCAR ")) != std::string::npos;)
+    bytes.replace(at, 14, "comment ANOTHER");
+  options.input = folder.write("thing.ply", bytes).string();
+  EXPECT_EQ(organ_import(options, out, err), 0) << err.str();
+  EXPECT_EQ(load_organ(options.output + ".organ.toml").name, "thing") << "after its file";
 }
 
 TEST(OrganExport, ASceneIsOneFileOfNamedPartsOrAFolder) {

@@ -160,6 +160,23 @@ TEST(InstrumentActions, ScissorsInTheAirRefuseAndSayWhy) {
   EXPECT_EQ(theatre.surgery().refusals, 1);
 }
 
+TEST(InstrumentActions, ScissorsLeaveNoStripBesideAWoundAndSayWhy) {
+  Theatre theatre(InstrumentKind::kScissors);
+  theatre.presses = false;
+  theatre.snip(0, 0, 0.006);
+  ASSERT_EQ(theatre.surgery().cuts, 1);
+  theatre.wait(100);
+  // The blades close in the plane x = 0.
+  theatre.snip(0.0018, 0, 0.006);
+  EXPECT_EQ(theatre.surgery().cuts, 1);
+  EXPECT_EQ(theatre.surgery().refusals, 1);
+  EXPECT_EQ(CutRefusal(theatre.surgery().refusal), CutRefusal::kBesideCut);
+  theatre.snip(0.009, 0, 0.006);
+  EXPECT_EQ(theatre.surgery().cuts, 2) << "well beside it";
+  theatre.snip(0, 0.011, 0.006);
+  EXPECT_EQ(theatre.surgery().cuts, 3) << "on from its end";
+}
+
 TEST(InstrumentActions, FollowedPlacesGoAlongWithTheTissue) {
   Theatre theatre({InstrumentKind::kProbe, InstrumentKind::kScissors}, 0.010);
   const auto place = [&](std::size_t i) { return theatre.frame().place[i]; };
@@ -201,6 +218,42 @@ TEST(InstrumentActions, AHookDrawnAlongWithThePedalCutsAndWithoutItDoesNot) {
       EXPECT_EQ(theatre.surgery(), SurgeryState{});
       EXPECT_TRUE(theatre.world().surface()->fields.empty());
     }
+  }
+}
+
+TEST(InstrumentActions, CurrentBurnsAFoldThatIsHeldAndNothingBesideIt) {
+  const SurfacePtr rest = test::ellipsoid({0.06, 0.05, 0.035}, 48);
+  for (const bool holds : {true, false}) {
+    SoftOrgan organ(build_lattice(*rest, {.cell_m = 0.010}).lattice, rest, TissueSolid{}, {});
+    InstrumentActions actions(organ, {.soft_w = 30});
+    const Tool grasper = make_tool(InstrumentKind::kGrasper);
+    HapticState state;
+    double hottest_c = 0;
+    const auto step = [&](double opening_m, bool pedal) {
+      state.stylus.t_s += 0.01;
+      state.stylus.X_TI = from_above({0, 0, holds ? 0.029 : 0.060});
+      state.stylus.jaw_opening_m = opening_m;
+      state.stylus.pedal = pedal;
+      std::vector<SoftSpring> springs;
+      actions.before(state, grasper, true, organ, springs);
+      organ.step({}, &state.stylus.X_TI.p, springs);
+      actions.after(state, grasper, true, springs, organ);
+      hottest_c = std::max(hottest_c, actions.state().contact_c);
+    };
+    for (double o = 0.014; o > 0; o -= 0.001) step(o, false);
+    ASSERT_EQ(actions.grip().holds(), holds);
+    EXPECT_EQ(actions.state().heat_j, 0) << "no pedal yet";
+    for (int i = 0; i < 200; ++i) step(0, true);
+    if (!holds) {
+      EXPECT_EQ(actions.state(), SurgeryState{});
+      EXPECT_EQ(actions.heat().blocks(), 0U);
+      continue;
+    }
+    EXPECT_TRUE(actions.grip().holds());
+    EXPECT_GT(hottest_c, 60) << "a burn, as events count it";
+    EXPECT_GT(actions.state().heat_j, 5);
+    EXPECT_GE(actions.heat().damage_at({0, 0, 0.033}), 1) << "dead 2 mm deep";
+    EXPECT_LT(actions.heat().damage_at({0.025, 0, Theatre::top(0.025, 0) - 0.001}), 0.1);
   }
 }
 
@@ -259,6 +312,9 @@ TEST(InstrumentActions, AClipStaysOnItsWoundAndMovesWithTheTissue) {
 
 TEST(InstrumentActions, SuctionTakesBloodAndTheAccountCloses) {
   Theatre theatre(InstrumentKind::kSuction);
+  for (int i = 0; i < 50; ++i) theatre.step({0, 0, 0.05}, 0.002);
+  EXPECT_EQ(theatre.most("wet"), 0) << "taken in hand with closed fingers, it does not rinse at once";
+  theatre.step({0, 0, 0.05}, 0.012);
   for (int i = 0; i < 200; ++i) theatre.step({0, 0, 0.05}, 0.002);  // rinses
   EXPECT_GT(theatre.most("wet"), 0.3F);
   for (int i = 0; i < 200; ++i) theatre.step({0, 0, 0.036}, 0.02, true);
@@ -329,7 +385,8 @@ TEST(InstrumentActions, RandomTicksLeaveASoundOrgan) {
       "%d steps: %d cuts, %d tears, %d clips, %d refused, %.1f mL, %.0f J; %d needles, %d punctures, %d stitches\n",
       steps, done.cuts, done.tears, done.clips, done.refusals, done.blood_ml, done.heat_j, sewn.needles, sewn.punctures,
       sewn.stitches);
-  EXPECT_GE(done.cuts, steps / 200) << "500 in 10^6 ticks";
+  // The more wounds there are, the more often scissors are too close to one.
+  EXPECT_GE(done.cuts, std::min(steps / 200, 20 + steps / 1000)) << "120 in 10^6 ticks";
   EXPECT_GT(done.heat_j, 10);
 }
 

@@ -9,6 +9,7 @@
 
 #include "haptics/input_error.h"
 #include "tests/tissue/interaction/needle_rig.h"
+#include "tissue/thin/sheet_body.h"
 
 namespace trocar::suturing_test {
 namespace {
@@ -195,6 +196,21 @@ TEST(Suturing, EventsAndNodesMakeTheSamePictureAgain) {
   std::string cut = changes[0];
   cut.pop_back();
   EXPECT_THROW(parse_suture_event(cut), InputError);
+}
+
+TEST(SutureEvents, AreNoChangeOfASheetAndThoseOfFormerRecordingsAreRead) {
+  const SutureEvent event{.kind = Kind::kSnipped, .entry_rest_T = Vec3(1, 2, 3), .arc_m = 0.1};
+  std::string bytes = suture_event_bytes(event);
+  EXPECT_FALSE(is_sheet_change(bytes));
+  for (const std::size_t edges : {0U, 1U, 9U, 50U}) {
+    const std::string sheet = sheet_change_bytes({1, std::vector<SheetEdge>(edges, SheetEdge{3, 4})});
+    EXPECT_FALSE(is_suture_event(sheet)) << edges;
+    EXPECT_THROW(parse_suture_event(sheet), InputError) << edges;
+  }
+  constexpr std::int32_t kFormer = -43;
+  bytes.replace(0, sizeof kFormer, reinterpret_cast<const char*>(&kFormer), sizeof kFormer);
+  EXPECT_TRUE(is_suture_event(bytes));
+  EXPECT_EQ(parse_suture_event(bytes), event);
 }
 
 TEST(Suturing, AtRandomAllStaysFiniteAndTheSameInputGivesTheSameBytes) {

@@ -115,6 +115,23 @@ TEST(VesselFlow, AClipClosesAPartialOneLeaks) {
   EXPECT_GT(most.out(), 0);
 }
 
+TEST(VesselFlow, AClipThatIsTakenOffLeavesNothing) {
+  Single never, once;
+  once.flow.clip(0, 0.3, 1);
+  once.flow.clip(0, 0.2, 1);
+  for (Single* s : {&never, &once}) s->flow.cut(0, 0.5);
+  for (Single* s : {&never, &once}) s->flow.solve(pressures(12000));
+  EXPECT_EQ(once.out(), 0);
+  once.flow.unclip(0, 0.2);
+  once.flow.unclip(0, 0.7);
+  once.flow.solve(pressures(12000));
+  EXPECT_EQ(once.out(), 0) << "the other one holds";
+  once.flow.unclip(0, 0.3);
+  for (Single* s : {&never, &once}) s->flow.solve(pressures(12000));
+  EXPECT_GT(never.out(), 0);
+  EXPECT_NEAR(once.out() / never.out(), 1, 1e-9);
+}
+
 TEST(VesselFlow, AClipHolds300MillimetresOfMercuryAndNoMore) {
   Single s;
   s.flow.clip(0, 0.2, 1);

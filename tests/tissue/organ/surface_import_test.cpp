@@ -44,7 +44,7 @@ TEST(SurfaceImport, RefusesImplausibleSizes) {
   const auto path = folder.write("s.ply", ascii_ply(test::box(Vec3::Zero(), Vec3(0.2, 0.1, 0.1)), 1e3));
   EXPECT_CONTAINS(refusal(path, "cm"), "not plausible");
   EXPECT_CONTAINS(refusal(path, "m"), "it would be in mm");
-  EXPECT_CONTAINS(refusal(path, "inch"), "mm, cm or m");
+  EXPECT_CONTAINS(refusal(path, "inch"), "mm, cm, m or um");
   const auto tiny = folder.write("tiny.ply", ascii_ply(test::box(Vec3::Zero(), Vec3::Constant(1e-3)), 1));
   EXPECT_CONTAINS(refusal(tiny, "m"), "no unit among");
 }
@@ -61,7 +61,7 @@ TEST(SurfaceImport, TurnsInwardSurfacesAndKeepsTheLargest) {
   TriangleSurface inward = test::sphere(Vec3::Zero(), 0.05, 3);
   for (auto& triangle : inward.triangles) std::swap(triangle[0], triangle[1]);
   const auto path =
-      folder.write("two.ply", ascii_ply(test::joined(inward, test::sphere(Vec3(0.09, 0, 0), 0.01, 2)), 1e3));
+      folder.write("two.ply", ascii_ply(test::joined(inward, test::sphere(Vec3(0.09, 0, 0), 0.0095, 2)), 1e3));
   const ImportedSurface imported = import_surface(path, "mm");
   EXPECT_NEAR(imported.surface.volume_m3(), -inward.volume_m3(), 1e-3 * imported.surface.volume_m3());
   ASSERT_EQ(imported.lost_volumes_m3.size(), 1U);

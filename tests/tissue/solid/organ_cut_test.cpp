@@ -164,7 +164,8 @@ TEST(OrganCut, RefusesWhatItCannotCut) {
   EXPECT_EQ(organ.cut(top_cut(0.020, 0.0004), blunt).refusal, CutRefusal::kTooShallow);
   EXPECT_EQ(organ.topology(), 0U);
   EXPECT_TRUE(organ.surface()->vertices == bytes);
-  for (const auto r : {CutRefusal::kNone, CutRefusal::kPieceOff}) EXPECT_NE(refusal_words(r), "?");
+  for (const auto r : {CutRefusal::kNone, CutRefusal::kPieceOff, CutRefusal::kBesideCut})
+    EXPECT_NE(refusal_words(r), "?");
 }
 
 TEST(OrganCut, AMadeUpCutIsBadInput) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "tests/tissue/thin/rod_rig.h"
 #include "tissue/mesh/surface/topology.h"
+#include "tissue/thin/rod_grip.h"
 #include "tissue/thin/rod_surface.h"
 
 namespace trocar::clip_test {
@@ -209,6 +212,117 @@ TEST(ClipSet, BearsLessWithLittleStumpAndInPart) {
   Applied part;
   part.close(test::jaws_from_above({0.02, 0, 0}), kClosed, true);
   EXPECT_NEAR(part.clips.bears_n(part.clips.clips()[0], part.rod), 2.5, 0.05);
+}
+
+/// Pulled along the rod by so much more each step, until it comes off. N; more than 10: it did not
+double pulled_off_at(Applied& a, double more_n) {
+  for (double pull = 0; pull < 10; pull += more_n) {
+    a.clips.pull(1, {-pull, 0, 0});
+    if (!a.clips.step(a.rod, a.lumen).empty()) return pull;
+  }
+  return 11;
+}
+
+TEST(ClipSet, ComesOffInTheSecondStepOverItsLimitInProportionToStumpAndPart) {
+  constexpr double kMore = 0.02;  // N a step
+  Applied whole, stump, part, both;
+  for (Applied* a : {&whole, &stump}) a->close(over(0.02));
+  for (Applied* a : {&part, &both}) a->close(test::jaws_from_above({0.02, 0, 0}), kClosed, true);
+  for (Applied* a : {&stump, &both}) a->rod.sever(0.0216);
+  for (const auto& [a, limit] :
+       {std::pair(&whole, 5.0), std::pair(&stump, 2.5), std::pair(&part, 2.5), std::pair(&both, 1.25)}) {
+    const double bears = a->clips.bears_n(a->clips.clips()[0], a->rod);
+    EXPECT_NEAR(bears, limit, 0.02 * limit);
+    const double at = pulled_off_at(*a, kMore);
+    EXPECT_GT(at, bears);
+    EXPECT_LT(at, bears + 3 * kMore);
+  }
+  Applied jerked;
+  jerked.close(over(0.02));
+  jerked.clips.pull(1, {50, 0, 0});
+  EXPECT_TRUE(jerked.clips.step(jerked.rod, jerked.lumen).empty()) << "one step is a blow and no pull";
+  EXPECT_TRUE(jerked.clips.step(jerked.rod, jerked.lumen).empty());
+}
+
+TEST(ClipSet, WhatTouchesTheRodPullsOnlyOnTheClipThatItTouches) {
+  for (const double aside : {0.0, 0.0005, 0.0007, 0.002}) {
+    Applied a;
+    a.close(over(0.015));
+    a.close(over(0.02));
+    std::size_t off = 0;
+    for (int i = 0; i < 5; ++i) {
+      const std::array<RodSpring, 2> springs{{{a.clips.clips()[1].arc_m + aside, Vec3::UnitX(), 100, 0.06, false, 6},
+                                              {0.03, Vec3::UnitX(), 1, 0, false, 9}}};
+      a.clips.pull_touched(springs);
+      for (const std::int32_t number : a.clips.step(a.rod, a.lumen)) off += static_cast<std::size_t>(number);
+    }
+    EXPECT_EQ(off, aside < 0.0006 ? 2u : 0u) << aside;
+  }
+}
+
+/// A grasper that closes on a place of a duct with a clip at another, and draws at it towards its free end.
+struct Drawn {
+  double most_n = 0;    ///< that the jaws pulled with while the clip was on
+  double before_n = 0;  ///< in the step in which it came off
+  bool held = false;    ///< the clip
+  double block_m = 0;   ///< between the pads, closed
+  std::size_t off = 0;  ///< clips
+  double open = 0;      ///< of the lumen at the clip, jaws away
+};
+
+Drawn draw(double jaws_arc, double clip_arc, const RodGripOptions& options, double open_m = kOpen) {
+  Drawn out;
+  Applied a;
+  a.rod = test::hung_duct({.avulsion_n = 1e6});
+  a.close(over(clip_arc));
+  a.rod.let_go(RodEnd::kFinish);
+  for (int i = 0; i < 100; ++i) a.rod.step();
+  const double from_x = a.rod.place_at(jaws_arc).x();
+  RodGrip grip(options);
+  const auto step = [&](double x, double opening) {
+    const std::vector<double> arcs = a.clips.arcs();
+    std::vector<RodSpring> springs;
+    const Pose X = test::jaws_from_above({x, 0, -0.01});
+    a.lumen.begin();
+    grip.reach(X, opening, a.rod, springs, arcs);
+    grip.press(a.lumen);
+    a.rod.step(springs);
+    grip.feel(X, springs, a.rod);
+    a.clips.pull_held(grip.clips(), -grip.pull_T());
+    out.held = out.held || (!grip.clips().empty() && grip.state() != GripState::kAround);
+    const double pull = grip.pull_T().norm();
+    const std::size_t off = a.clips.step(a.rod, a.lumen).size();
+    if (off > 0) out.before_n = pull, grip.let_go();
+    if (off == 0 && out.off == 0) out.most_n = std::max(out.most_n, pull);
+    out.off += off;
+  };
+  for (double opening = open_m; opening > 1e-9; opening -= 4e-4) step(from_x, opening);
+  out.block_m = grip.block().thickness_m;
+  for (int i = 0; i < 400 && out.off == 0; ++i) step(from_x + 1e-4 * i, 0);
+  for (int i = 0; i < 5; ++i) step(1, kOpen);
+  out.open = a.lumen.segments(a.rod)[a.rod.segment_at(clip_arc)].open;
+  return out;
+}
+
+TEST(ClipSet, JawsThatCloseOnAClipHoldItAndDrawItOffAtItsLimit) {
+  const Drawn drawn = draw(0.02, 0.02, {.clip_legs_m = 0.0016});
+  EXPECT_TRUE(drawn.held);
+  EXPECT_NEAR(drawn.block_m, 0.0026, 1e-12) << "two walls and two legs";
+  EXPECT_EQ(drawn.off, 1u);
+  EXPECT_GT(drawn.before_n, 5);
+  EXPECT_LT(drawn.before_n, 5.3) << "0.06 N more each step at most, in the second step over it";
+  EXPECT_EQ(drawn.open, 1);
+}
+
+TEST(ClipSet, JawsBesideAClipOrClosedBeforeTheyReachItDoNotDrawItOff) {
+  const Drawn beside = draw(0.02, 0.010, {.friction = 10, .clip_legs_m = 0.0016});
+  EXPECT_FALSE(beside.held);
+  EXPECT_GT(beside.most_n, 5.5);
+  EXPECT_EQ(beside.off, 0u);
+  EXPECT_EQ(beside.open, 0);
+  const Drawn late = draw(0.02, 0.02, {.friction = 10, .clip_legs_m = 0.0016}, 0.0022);
+  EXPECT_FALSE(late.held) << "a clip does not get in between pads that are nearly shut";
+  EXPECT_EQ(late.off, 0u);
 }
 
 TEST(ClipSet, ClipsStayOnBothSidesOfACut) {

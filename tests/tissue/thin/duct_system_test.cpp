@@ -228,7 +228,8 @@ TEST(DuctSystem, AClipIsRefusedForAReasonOfItsOwnNumberOrPlaced) {
   EXPECT_EQ(t.surgery().refusals, 1);
   EXPECT_EQ(t.surgery().refusal, refusal_code(ClipRefusal::kAngle));
   EXPECT_EQ(closing_words(t.surgery().refusal), sentence(ClipRefusal::kAngle));
-  EXPECT_EQ(closing_words(static_cast<std::int32_t>(CutRefusal::kTooFine)), refusal_words(CutRefusal::kTooFine));
+  for (const CutRefusal why : {CutRefusal::kTooFine, CutRefusal::kBesideCut})
+    EXPECT_EQ(closing_words(static_cast<std::int32_t>(why)), refusal_words(why));
   EXPECT_EQ(closing_words(0), "");
   t.open(at);
   t.close(at, 0, 0.008);
@@ -373,6 +374,126 @@ TEST(DuctSystem, TubesMadeFromRecordedNodesAndChangesLieWhereTheyLay) {
   EXPECT_LT(whole.nodes(), playback.nodes());
 }
 
+constexpr double kLittleStump = 0.0013;  // m from a clip's middle to the cut
+
+/// A clip between the middle and the fixed end, and a cut beside it.
+void leave_stump(Theatre& t, std::size_t d) {
+  const Vec3 at = t.middle(d) + Vec3(0.006, 0, 0), beside = at - Vec3(kLittleStump, 0, 0);
+  t.take(kClip);
+  t.close(at, 0, 0.008);
+  t.open(at);
+  t.take(kCut);
+  t.close(beside);
+  t.open(beside);
+  t.take(kGrasp);
+}
+
+std::vector<DuctMark> marks(Theatre& t, DuctMark::Kind kind) {
+  std::vector<DuctMark> out;
+  const TissueFrame& frame = t.world().frame();
+  for (std::int32_t i = 0; i < frame.duct_mark_count; ++i)
+    if (frame.duct_mark[std::size_t(i)].kind == kind) out.push_back(frame.duct_mark[std::size_t(i)]);
+  return out;
+}
+
+/// The grasper closes on the only clip and draws it towards the free end, at most so far.
+/// @return N, what it pulled with in the last step in which the clip was on
+double draw_clip(Theatre& t, double most_m) {
+  const Pose X_TC = t.world().frame().clip[0];
+  const Vec3 axis = X_TC.p - kTip * X_TC.R.col(2);
+  t.close(axis);
+  double pull = 0;
+  for (double way = 0; way < most_m; way += 1e-4) {
+    t.step(from_above(axis - Vec3(way, 0, kTip)), 0);
+    if (marks(t, DuctMark::Kind::kClip).empty()) break;
+    const GripHold& hold = t.patch().hold;
+    pull = hold.stiffness_n_per_m * (hold.anchor_T - t.state().stylus.X_TI * hold.point_I).norm();
+  }
+  t.open(axis - Vec3(most_m, 0, 0));
+  return pull;
+}
+
+TEST(DuctSystem, AClipIsDrawnOffAShortStumpAtWhatThatBearsAndIsToldOnce) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  leave_stump(t, 0);
+  ASSERT_EQ(marks(t, DuctMark::Kind::kClip).size(), 1U) << closing_words(t.surgery().refusal);
+  ASSERT_EQ(marks(t, DuctMark::Kind::kCut).size(), 1U) << closing_words(t.surgery().refusal);
+  EXPECT_EQ(t.surgery().bile_leaks, 1) << "from the other end";
+  const double clip_m = marks(t, DuctMark::Kind::kClip)[0].arc_m, cut_m = marks(t, DuctMark::Kind::kCut)[0].arc_m;
+  const ClipOptions options;
+  const double bears = options.pull_off_n * (clip_m - cut_m - options.width_m / 2) / options.stump_m;
+  const std::int32_t refusals = t.surgery().refusals;
+  draw_clip(t, 0.002);
+  EXPECT_EQ(marks(t, DuctMark::Kind::kClip).size(), 1U) << "a gentle pull spares it";
+  EXPECT_EQ(t.surgery().refusals, refusals);
+  const std::uint64_t topology = t.world().shape().topology;
+  EXPECT_NEAR(draw_clip(t, 0.040), bears, 0.6) << "a cut leaves no sliver: 0.2 mm of stump more or less";
+  EXPECT_TRUE(marks(t, DuctMark::Kind::kClip).empty());
+  EXPECT_EQ(t.world().frame().clip_count, 0);
+  EXPECT_EQ(t.surgery().clips, 1) << "that were set";
+  EXPECT_EQ(t.surgery().tears, 0);
+  EXPECT_EQ(t.surgery().bile_leaks, 2);
+  t.wait(50);
+  EXPECT_EQ(t.surgery().refusals, refusals + 1);
+  EXPECT_EQ(t.surgery().refusal, kClipCameOff);
+  EXPECT_FALSE(closing_words(kClipCameOff).empty());
+  EXPECT_EQ(t.world().shape().topology, topology + 1);
+  const DuctChange change = parse_duct_change(t.world().shape().changes.back());
+  EXPECT_EQ(change.kind, DuctChange::Kind::kUnclipped);
+  EXPECT_EQ(change.arc_m, clip_m);
+}
+
+TEST(DuctSystem, AnArteryWhoseClipIsDrawnOffBleedsOn) {
+  Theatre t(InstrumentKind::kGrasper);
+  t.settle();
+  leave_stump(t, 1);
+  ASSERT_EQ(marks(t, DuctMark::Kind::kClip).size(), 1U) << closing_words(t.surgery().refusal);
+  t.wait(300);
+  const double clipped_ml = t.surgery().blood_ml;
+  draw_clip(t, 0.040);
+  EXPECT_TRUE(marks(t, DuctMark::Kind::kClip).empty());
+  const double before_ml = t.surgery().blood_ml;
+  t.wait(300);
+  EXPECT_GT(t.surgery().blood_ml - before_ml, 2 * clipped_ml + 0.05);
+}
+
+TEST(DuctSystem, AClipThatCameOffIsPlayedBackAndIsTheSameTwice) {
+  struct Made {
+    std::vector<std::string> changes;
+    std::vector<NodePlace> thin_T;
+    SurfacePtr tube;
+    std::vector<DuctSetup> ducts;
+  };
+  const auto make = [] {
+    Theatre t(InstrumentKind::kGrasper);
+    t.settle();
+    leave_stump(t, 0);
+    draw_clip(t, 0.040);
+    t.wait(50);
+    const TissueShape shape = t.world().shape();
+    return Made{{shape.changes.begin(), shape.changes.end()},
+                {shape.thin_T.begin(), shape.thin_T.end()},
+                t.world().thin()[0],
+                t.setup().ducts};
+  };
+  const Made made = make(), again = make();
+  EXPECT_EQ(made.changes, again.changes);
+  EXPECT_EQ(made.thin_T, again.thin_T);
+  ASSERT_EQ(made.changes.size(), 3U);
+  const auto off_m = [&](std::size_t changes) {
+    const DuctPlayback playback(made.ducts, std::span(made.changes).first(changes));
+    const SurfacePtr played = playback.at(made.thin_T)[0];
+    EXPECT_EQ(played->triangles, made.tube->triangles);
+    double off = 0;
+    for (std::size_t v = 0; v < made.tube->vertices.size(); ++v)
+      off = std::max(off, (played->vertices[v] - made.tube->vertices[v]).norm());
+    return off;
+  };
+  EXPECT_LT(off_m(3), 6e-4) << "rings may be turned a little";
+  EXPECT_GT(off_m(2), 1.25 * off_m(3)) << "without the last change it would still be flat there";
+}
+
 /// Jaws round a duct that are pushed on beyond it go through it: it must not throw the shaft out of itself.
 TEST(DuctSystem, ADuctThatTheJawsWereRoundIsFeltAgainOnlyWhereTheToolIsClearOfIt) {
   Theatre t(InstrumentKind::kClipApplier);
@@ -401,6 +522,11 @@ TEST(DuctSystem, AChangeIsReadBackFromItsBytesAndWhatIsNoneIsRefused) {
   EXPECT_EQ(read.share, change.share);
   EXPECT_EQ(read.offset_rod, change.offset_rod);
   EXPECT_EQ(read.rotation_rod, change.rotation_rod);
+  std::string later = bytes;
+  later[sizeof(std::int32_t)] = static_cast<char>(DuctChange::Kind::kUnclipped);
+  EXPECT_EQ(parse_duct_change(later).kind, DuctChange::Kind::kUnclipped);
+  ++later[sizeof(std::int32_t)];
+  EXPECT_THROW(parse_duct_change(later), InputError);
   EXPECT_THROW(parse_duct_change(bytes.substr(0, bytes.size() - 1)), InputError);
   EXPECT_THROW(parse_duct_change(bytes + "x"), InputError);
   EXPECT_THROW(parse_duct_change("nonsense that is long enough to be read as a change of a duct"), InputError);

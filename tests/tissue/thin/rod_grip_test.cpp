@@ -157,7 +157,7 @@ double anything(unsigned seed, int steps) {
   std::uniform_real_distribution<double> any(-1, 1);
   ElasticRod rod = test::hung_duct();
   Lumen lumen;
-  RodGrip grip;
+  RodGrip grip({.clip_legs_m = 0.0016});
   ClipSet clips;
   ClipApplier applier;
   RodScissors scissors;
@@ -179,7 +179,7 @@ double anything(unsigned seed, int steps) {
     std::vector<RodSpring> springs;
     lumen.begin();
     if (tool == 0)
-      grip.reach(X, opening, rod, springs);
+      grip.reach(X, opening, rod, springs, arcs);
     else
       grip.let_go();
     if (tool == 1)
@@ -195,6 +195,8 @@ double anything(unsigned seed, int steps) {
     grip.press(lumen);
     rod.step(springs);
     grip.feel(X, springs, rod);
+    clips.pull_held(grip.clips(), -grip.pull_T());
+    clips.pull_touched(springs);
     if (!clips.clips().empty()) clips.pull(1, 6 * Vec3(any(random), any(random), any(random)));
     clips.step(rod, lumen);
     if (i % 10 == 0) tube.follow(rod, &lumen);

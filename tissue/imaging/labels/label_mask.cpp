@@ -193,7 +193,8 @@ void keep_parts(LabelMask& mask, const PartsRule& rule, int label) {
   const auto largest = static_cast<std::size_t>(std::max_element(voxels.begin(), voxels.end()) - voxels.begin());
   if (voxels[largest] < kFewestVoxels)
     throw InputError("label " + std::to_string(label) + ": its largest part has only " +
-                     std::to_string(voxels[largest]) + " voxels");
+                     std::to_string(voxels[largest]) + (voxels[largest] == 1 ? " voxel" : " voxels") + ", and " +
+                     std::to_string(kFewestVoxels) + " are needed");
   const double least =
       std::max(static_cast<double>(kFewestVoxels), rule.least_share * static_cast<double>(mask.label_voxels));
   std::vector<bool> kept(voxels.size(), false);

@@ -9,8 +9,10 @@
 
 #include "haptics/input_error.h"
 #include "tissue/imaging/child_process.h"
+#include "tissue/imaging/labels/label_mask.h"
 #include "tissue/mesh/files/organ_sizes.h"
 #include "tissue/mesh/files/soup_weld.h"
+#include "tissue/mesh/files/surface_pieces.h"
 #include "tissue/mesh/files/winding.h"
 #include "tissue/mesh/surface/rescue.h"
 #include "tissue/mesh/surface/surface_check.h"
@@ -147,33 +149,25 @@ void rescue(const SurfaceImportOptions& options, const std::string& file, Import
   fill(options, file, result);
 }
 
-/// How many of the components that were left out lie within the one that was kept: cavities, which are so filled.
-std::size_t cavities(const TriangleSurface& before, const TriangleSurface& kept) {
-  constexpr std::size_t kMostLookedAt = 200;  // each costs a walk over the surface
-  const auto component = triangle_components(before);
-  std::int32_t next = 0;
-  std::size_t inside = 0;
-  for (std::size_t t = 0; t < component.size() && next < static_cast<std::int32_t>(kMostLookedAt); ++t) {
-    if (component[t] != next) continue;
-    ++next;
-    const Vec3& first = before.vertices[static_cast<std::size_t>(before.triangles[t][0])];
-    if (first != kept.vertices[0]) inside += encloses(kept, first) ? 1 : 0;
-  }
-  return inside;
-}
-
-void keep_largest(ImportedSurface& result) {
-  const TriangleSurface before = std::move(result.surface);
-  result.surface = largest_component(before, &result.lost_volumes_m3);
-  if (result.lost_volumes_m3.empty()) return;
+/// Parts from the least share on that is kept of a label's, too. Cavities are left to settle_cavities.
+void keep_surface_parts(const std::vector<double>& stored_m3, bool only_largest, ImportedSurface& result) {
+  const std::size_t triangles = result.surface.triangles.size();
+  SurfacePieces pieces = sorted_pieces(result.surface, stored_m3, only_largest ? 2 : PartsRule{}.least_share);
+  result.surface = std::move(pieces.kept);
+  result.cavities = std::move(pieces.cavities);
+  result.lost_volumes_m3 = std::move(pieces.lost_m3);
+  if (pieces.count == 1) return;
   const double lost = std::accumulate(result.lost_volumes_m3.begin(), result.lost_volumes_m3.end(), 0.0);
-  result.repairs.push_back("kept the largest of " + std::to_string(result.lost_volumes_m3.size() + 1) +
-                           " components (" + std::to_string(result.surface.triangles.size()) + " of " +
-                           std::to_string(before.triangles.size()) + " triangles); the others enclose " + ml(lost) +
-                           ", the largest of them " + ml(result.lost_volumes_m3[0]));
-  const std::size_t filled = cavities(before, result.surface);
-  if (filled > 0)
-    result.repairs.push_back(std::to_string(filled) + " of these lie within it: cavities, which are filled so");
+  result.repairs.push_back(
+      (pieces.parts == 1 ? "kept the largest of " : "kept " + std::to_string(pieces.parts) + " of ") +
+      std::to_string(pieces.count) + " components (" + std::to_string(result.surface.triangles.size()) + " of " +
+      std::to_string(triangles) + " triangles)" +
+      (result.lost_volumes_m3.empty()
+           ? ""
+           : "; those left out enclose " + ml(lost) + ", the largest of them " + ml(result.lost_volumes_m3[0])));
+  if (pieces.within > 0)
+    result.repairs.push_back("left out " + std::to_string(pieces.within) +
+                             " components that lie within others and enclose nothing more");
   if (lost > 0.02 * result.surface.volume_m3())
     result.warnings.push_back("the parts that were left out enclose " +
                               fixed(100 * lost / result.surface.volume_m3(), 1) + " % of what was kept");
@@ -211,6 +205,20 @@ void count_intersections(ImportedSurface& result) {
 
 }  // namespace
 
+void settle_cavities(ImportedSurface& result, const std::function<bool(const TriangleSurface&)>& keep) {
+  for (const TriangleSurface& cavity : result.cavities) {
+    const double volume_m3 = cavity.volume_m3();
+    if (keep(cavity)) {
+      append_turned(result.surface, cavity);
+      result.repairs.push_back("kept a cavity of " + ml(volume_m3));
+      continue;
+    }
+    result.filled_volumes_m3.push_back(volume_m3);
+    result.warnings.push_back("a cavity of " + ml(volume_m3) + " was filled");
+  }
+  result.cavities.clear();
+}
+
 void close_surface(const TriangleSurface& soup, const SurfaceImportOptions& options, const std::string& organ,
                    const std::string& file, ImportedSurface& result, const Progress& progress) {
   result.surface = soup;
@@ -219,9 +227,10 @@ void close_surface(const TriangleSurface& soup, const SurfaceImportOptions& opti
   rescue(options, file, result, progress);
   report(progress, "checking", 0);
   check_closed(result.surface, options, file);
+  const std::vector<double> stored_m3 = piece_volumes_m3(result.surface);
   std::size_t turned = 0;
   if (!wind_outward(result.surface, turned)) throw InputError(file + ": the surface has no inside and outside");
-  keep_largest(result);
+  keep_surface_parts(stored_m3, options.only_largest, result);
   if (turned > 0) result.repairs.push_back("turned " + std::to_string(turned) + " triangles outwards");
   if (!(result.surface.volume_m3() >= kLeastVolumeM3))
     throw InputError(file + ": the surface encloses no volume (less than 1 mm^3): it is flat or collinear");

@@ -8,7 +8,7 @@
 namespace trocar {
 
 /// @param soup m, RAS
-/// @param result takes the surface, the repairs, the warnings, the lost parts
+/// @param result takes the surface, the repairs, the warnings, the lost parts, the cavities
 /// @param organ name that the warnings go by, "" for none
 /// @throws InputError naming the file: open, not manifold, one-sided, encloses nothing, hole too wide, wrap too fine
 void close_surface(const TriangleSurface& soup, const SurfaceImportOptions& options, const std::string& organ,

@@ -13,7 +13,7 @@
 namespace trocar {
 namespace {
 
-constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}}};
+constexpr std::array<std::pair<const char*, double>, 4> kUnits{{{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"um", 1e-6}}};
 
 bool plausible(double diagonal_m) { return diagonal_m >= kSmallestOrganM && diagonal_m <= kLargestOrganM; }
 
@@ -31,7 +31,7 @@ std::string size_hint(const Eigen::AlignedBox3d& bounds, const std::string& orga
       fitting += (fitting.empty() ? "" : " or ") + std::string(name);
   }
   out << "an organ measures 5 to 600 mm across, so "
-      << (any.empty() ? "no unit among mm, cm, m fits" : "it would be in " + any);
+      << (any.empty() ? "no unit among mm, cm, m, um fits" : "it would be in " + any);
   if (size)
     out << "; of " << size->with_article() << " one expects " << size->least_mm << " to " << size->most_mm << " mm, "
         << (fitting.empty() ? "which no unit gives" : "which " + fitting + " gives");
@@ -56,7 +56,7 @@ void decide_unit(const SurfaceFile& file, const SurfaceImportOptions& options, c
                  const std::string& organ, const std::string& path, Placement& result) {
   if (options.unit.empty() && !file.unit_m)
     throw InputError(path + ": " + format_name(path) +
-                     " carries no unit, say --unit mm, cm or m: " + size_hint(bounds, organ));
+                     " carries no unit, say --unit mm, cm, m or um: " + size_hint(bounds, organ));
   result.unit_m = options.unit.empty() ? *file.unit_m : metres_per(options.unit);
   result.unit = unit_name(result.unit_m);
   if (!plausible(bounds.diagonal().norm() * result.unit_m))
@@ -97,7 +97,7 @@ void decide_frame(const SurfaceFile& file, const SurfaceImportOptions& options, 
 double metres_per(const std::string& unit) {
   for (const auto& [name, factor] : kUnits)
     if (unit == name) return factor;
-  throw InputError("--unit " + unit + ": mm, cm or m is wanted");
+  throw InputError("--unit " + unit + ": mm, cm, m or um is wanted");
 }
 
 Placement placement_of(const SurfaceFile& file, const SurfaceImportOptions& options, const Eigen::AlignedBox3d& bounds,

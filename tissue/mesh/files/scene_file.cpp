@@ -104,7 +104,9 @@ std::string packed_scene(const SurfaceFile& result) {
     out.put_all(part.surface.triangles);
   }
   out.put(result.unit_m.value_or(0));
-  for (const std::string* text : {&result.unit_source, &result.frame, &result.frame_source}) out.put(*text);
+  for (const std::string* text :
+       {&result.unit_source, &result.frame, &result.frame_source, &result.name, &result.material})
+    out.put(*text);
   out.put_all(result.remarks);
   return std::move(out.bytes);
 }
@@ -127,7 +129,8 @@ SurfaceFile unpacked(std::string_view bytes, const std::string& file) {
   double unit = 0;
   in.take(unit);
   if (unit > 0) result.unit_m = unit;
-  for (std::string* text : {&result.unit_source, &result.frame, &result.frame_source}) in.take(*text);
+  for (std::string* text : {&result.unit_source, &result.frame, &result.frame_source, &result.name, &result.material})
+    in.take(*text);
   in.take_all(result.remarks);
   return result;
 }
@@ -289,7 +292,11 @@ SurfaceFile read_scene(const fs::path& path, SurfaceKind kind, std::string_view 
     if (kind == SurfaceKind::kGlb || kind == SurfaceKind::kGltf) remarks = check_gltf(bytes, path);
     SurfaceFile result = read_with_assimp(path, kind);
     result.remarks.insert(result.remarks.begin(), remarks.begin(), remarks.end());
-    if (kind == SurfaceKind::kPly) take_comment(bytes.substr(0, bytes.find("end_header")), "a comment", result, file);
+    if (kind == SurfaceKind::kPly) {
+      const std::string_view header = bytes.substr(0, bytes.find("end_header"));
+      take_comment(header, "a comment", result, file);
+      take_own_words(header, result);
+    }
     return packed_scene(result);
   });
   return unpacked(answer, file);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <regex>
+#include <sstream>
+#include <utility>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 
 namespace trocar {
 namespace {
@@ -111,11 +114,22 @@ void take_comment(std::string_view comment, const char* where, SurfaceFile& resu
   if (at == std::string_view::npos) return;
   const std::string_view rest = comment.substr(at + kUnit.size());
   const std::string_view word = rest.substr(0, rest.find_first_of(std::string_view(" \t\r\n\0", 5)));
-  for (const auto& [unit, metres] : {std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}, std::pair{"m", 1.0}}) {
+  for (const auto& [unit, metres] :
+       {std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2}, std::pair{"m", 1.0}, std::pair{"um", 1e-6}}) {
     if (word != unit) continue;
     result.unit_m = metres;
     result.unit_source = std::string(where) + " says UNIT=" + unit;
   }
+}
+
+void take_own_words(std::string_view header, SurfaceFile& result) {
+  std::istringstream lines{std::string(header)};
+  for (std::string line; std::getline(lines, line);)
+    for (const auto& [begins, word] : {std::pair(kOwnName, &result.name), std::pair(kOwnMaterial, &result.material)}) {
+      if (!line.starts_with(begins)) continue;
+      std::string said = line.substr(std::string_view(begins).size());
+      if (said.size() <= kMaxNameBytes && is_utf8(said) && harmless(said) == said) *word = std::move(said);
+    }
 }
 
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file) {

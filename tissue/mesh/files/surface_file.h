@@ -42,6 +42,7 @@ struct SurfaceFile {
   std::string unit_source;       ///< "glTF is in metres by its standard"
   std::string frame;             ///< "RAS", "LPS" ...; "" when the file does not say
   std::string frame_source;      ///< "the header says SPACE=LPS"
+  std::string name, material;    ///< of the organ, where our own export says so
   std::vector<std::string> remarks;  ///< what was left out or repaired while reading
 };
 
@@ -60,9 +61,13 @@ std::string printable(std::string_view name);
 /// they are.
 std::vector<std::string> slicer_spaces(std::string_view comment);
 /// Takes frame and unit from a comment or header: "SPACE=RAS" or "SPACE=LPS", as 3D Slicer writes them, and "UNIT=mm",
-/// "UNIT=cm" or "UNIT=m", which `organ export` adds. @param where "a comment", "the header", for messages
+/// as `organ export` adds it, "UNIT=cm", "UNIT=m" or "UNIT=um". @param where "a comment", "the header", for messages
 /// @throws InputError for two spaces, or one that nobody knows
 void take_comment(std::string_view comment, const char* where, SurfaceFile& result, const std::string& file);
+/// Lines of the header of a PLY that `organ export` wrote; behind them the word.
+inline constexpr const char *kOwnName = "comment TROCAR NAME=", *kOwnMaterial = "comment TROCAR MATERIAL=";
+/// Takes name and material from them. Words of other programs, or that are no line of text, are left.
+void take_own_words(std::string_view header, SurfaceFile& result);
 /// Takes the frame from the field "SPACE" that 3D Slicer writes into VTK files.
 /// @throws InputError for anything but RAS and LPS: axes that it names and nobody knows are no reason to take others
 void take_space(const std::string& letters, SurfaceFile& result, const std::string& file);

@@ -10,6 +10,7 @@
 #include <assimp/Exporter.hpp>
 
 #include "haptics/input_error.h"
+#include "tissue/mesh/files/surface_file.h"
 #include "tissue/mesh/files/vtk_xml_text.h"
 
 namespace trocar {
@@ -32,7 +33,8 @@ void put(std::string& bytes, const Value& value) {
 
 std::string ply_bytes(const std::vector<SurfacePartOut>& parts) {
   const TriangleSurface& surface = *parts.front().surface;
-  std::string bytes = std::string("ply\nformat binary_little_endian 1.0\ncomment ") + kSays + "\ncomment " +
+  std::string bytes = std::string("ply\nformat binary_little_endian 1.0\ncomment ") + kSays + "\n" + kOwnName +
+                      parts.front().name + "\n" + kOwnMaterial + parts.front().material + "\ncomment " +
                       parts.front().comment + "\nelement vertex " + std::to_string(surface.vertices.size()) +
                       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                       std::to_string(surface.triangles.size()) +

@@ -1,8 +1,8 @@
 // Surfaces as files of other programs.
 //
 // PLY, STL, OBJ and VTK (legacy or XML, text) in millimetres and RAS, which the file says ("SPACE=RAS UNIT=mm": 3D
-// Slicer places it by the first, our own readers take both); glTF in metres, Y up and the front along Z, as its
-// standard has it, by assimp. Thread: any.
+// Slicer places it by the first, our own readers take both), PLY also with name and material (take_own_words()); glTF
+// in metres, Y up and the front along Z, as its standard has it, by assimp. Thread: any.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@
 namespace trocar {
 
 struct SurfacePartOut {
-  std::string name, comment;       ///< of one line each
-  const TriangleSurface* surface;  ///< m, RAS
+  std::string name, material, comment;  ///< of one line each
+  const TriangleSurface* surface;       ///< m, RAS
 };
 
 struct SurfaceFormat {

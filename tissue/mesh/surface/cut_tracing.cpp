@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "haptics/contact/segment_triangle.h"
+
 namespace trocar {
 namespace {
 
@@ -273,8 +275,43 @@ std::string_view refusal_words(CutRefusal refusal) {
       return "the cut would take a piece off";
     case CutRefusal::kNoWound:
       return "no wound between the jaws";
+    case CutRefusal::kBesideCut:
+      return "too close to a cut, begin at its end";
   }
   return "?";
+}
+
+bool runs_beside_wound(const TriangleSurface& now, const std::vector<bool>& inside, const SurfaceCut& cut,
+                       double least_strip_m) {
+  constexpr double kOnIt = 1e-4;     // m
+  constexpr double kSideways = 0.5;  // share of the way to a wound that lies along the line, at most
+  const auto at = [&](std::int32_t vertex) { return now.vertices[static_cast<std::size_t>(vertex)]; };
+  std::vector<Vec3> line;
+  Vec3 middle = Vec3::Zero();
+  for (const CutCrossing& c : cut.crossings) {
+    line.push_back(at(c.left) + c.share * (at(c.right) - at(c.left)));
+    middle += line.back() / static_cast<double>(cut.crossings.size());
+  }
+  double reach = least_strip_m;
+  for (const Vec3& place : line) reach = std::max(reach, least_strip_m + (place - middle).norm());
+  std::vector<std::array<Vec3, 3>> walls;
+  for (std::size_t t = 0; t < inside.size(); ++t) {
+    if (!inside[t]) continue;
+    const auto& [a, b, c] = now.triangles[t];
+    const std::array<Vec3, 3> corners{at(a), at(b), at(c)};
+    if ((closest_point_on_triangle(middle, corners) - middle).norm() < reach) walls.push_back(corners);
+  }
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (walls.empty() || line.size() < 2 || inside[static_cast<std::size_t>(cut.crossings[i].triangle)]) continue;
+    const Vec3 along = (line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]).normalized();
+    beside += std::any_of(walls.begin(), walls.end(), [&](const std::array<Vec3, 3>& wall) {
+      const Vec3 way = closest_point_on_triangle(line[i], wall) - line[i];
+      const double far = way.norm();
+      return far > kOnIt && far < least_strip_m && std::abs(way.dot(along)) < kSideways * far;
+    });
+  }
+  return 2 * beside > line.size();
 }
 
 TracedCut trace_cut(const TriangleSurface& now, const Blade& blade, const CutTracingOptions& options) {

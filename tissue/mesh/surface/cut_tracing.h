@@ -24,8 +24,17 @@ Blade scissor_blade(const Pose& X_TI, double length_m, double opening_m);
 /// The track of an edge from one place to another. @param inward unit, along the edge into the tissue
 Blade track_blade(const Vec3& from_T, const Vec3& to_T, const Vec3& inward_T, double depth_m, double above_m);
 
-enum class CutRefusal : std::uint8_t { kNone, kNothingThere, kTooShallow, kTooFine, kThrough, kPieceOff, kNoWound };
-/// kNoWound is the clip applier's.
+/// Numbers as recorded.
+enum class CutRefusal : std::uint8_t {
+  kNone,
+  kNothingThere,
+  kTooShallow,
+  kTooFine,
+  kThrough,
+  kPieceOff,
+  kNoWound,   ///< the clip applier's
+  kBesideCut  ///< only a strip would be left between the line and a wound
+};
 std::string_view refusal_words(CutRefusal refusal);
 
 struct CutTracingOptions {
@@ -43,6 +52,12 @@ struct TracedCut {
   double length_m = 0, depth_m = 0, area_m2 = 0;  ///< of the line; the greatest; of one wall
   Vec3 middle_T = Vec3::Zero();                   ///< of the line's crossings
 };
+
+/// Whether most of a line runs along a wound, nearer to it than `least_strip_m`. One that crosses a wound, or goes on
+/// from its end or down from its bottom, does not.
+/// @param inside of each triangle: the wall of a wound; empty: there is none
+bool runs_beside_wound(const TriangleSurface& now, const std::vector<bool>& inside, const SurfaceCut& cut,
+                       double least_strip_m = 0.003);
 
 TracedCut trace_cut(const TriangleSurface& now, const Blade& blade, const CutTracingOptions& options = {});
 

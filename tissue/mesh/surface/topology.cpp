@@ -150,22 +150,14 @@ SurfaceTopology analyse_topology(const TriangleSurface& surface) {
   return facts;
 }
 
-TriangleSurface largest_component(const TriangleSurface& surface, std::vector<double>* lost_volumes_m3) {
-  const auto component = triangle_components(surface);
-  std::vector<double> volumes;
-  for (std::size_t t = 0; t < component.size(); ++t) {
-    if (static_cast<std::size_t>(component[t]) >= volumes.size()) volumes.push_back(0);
-    volumes[static_cast<std::size_t>(component[t])] += six_volumes(surface, surface.triangles[t]) / 6;
-  }
-  for (double& volume : volumes) volume = std::abs(volume);
-  const auto largest = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
-  TriangleSurface kept = subset(surface, [&](std::size_t t) { return component[t] == largest; });
-  if (lost_volumes_m3 != nullptr && !volumes.empty()) {
-    volumes.erase(volumes.begin() + largest);
-    std::sort(volumes.rbegin(), volumes.rend());
-    *lost_volumes_m3 = volumes;
-  }
-  return kept;
+TriangleSurface some_triangles(const TriangleSurface& surface, const std::vector<bool>& keep) {
+  return subset(surface, [&](std::size_t t) { return keep[t]; });
+}
+
+void append_turned(TriangleSurface& surface, const TriangleSurface& more) {
+  const auto shift = static_cast<Index>(surface.vertices.size());
+  surface.vertices.insert(surface.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const auto& [a, b, c] : more.triangles) surface.triangles.push_back({a + shift, c + shift, b + shift});
 }
 
 TriangleSurface without_specks(const TriangleSurface& surface, double least_m3, std::vector<double>* lost_volumes_m3) {

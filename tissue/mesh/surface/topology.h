@@ -30,9 +30,11 @@ SurfaceTopology analyse_topology(const TriangleSurface& surface);
 /// Component number (from 0, by first triangle) of each triangle.
 std::vector<std::int32_t> triangle_components(const TriangleSurface& surface);
 
-/// The component with the largest enclosed volume (absolute), its vertices renumbered in order of first use.
-/// @param lost_volumes_m3 when given: absolute volumes of the others, largest first
-TriangleSurface largest_component(const TriangleSurface& surface, std::vector<double>* lost_volumes_m3 = nullptr);
+/// The triangles that are wanted, their vertices renumbered in order of first use. @param keep of each triangle
+TriangleSurface some_triangles(const TriangleSurface& surface, const std::vector<bool>& keep);
+
+/// Adds the triangles of another surface, each turned over; no vertex is joined.
+void append_turned(TriangleSurface& surface, const TriangleSurface& more);
 
 /// The surface without its components that enclose less than `least_m3` (absolute), vertices renumbered in order of
 /// first use. Inner walls (components of negative volume) go too: they bound cavities.

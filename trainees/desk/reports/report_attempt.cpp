@@ -224,7 +224,7 @@ void add_origin(std::vector<Block>& out, const AttemptView& view) {
   const AttemptResult& r = view.result;
   out.emplace_back(Heading{"Seed, versions, hashes", 1});
   out.emplace_back(
-      Facts{{{"Exercise", r.exercise_id + " " + r.exercise_version + ", level " + r.level},
+      Facts{{{"Exercise", view.exercise + ", version " + r.exercise_version + ", level " + r.level},
              {"Seed, board", std::to_string(r.seed) + ", " + std::to_string(r.board)},
              {"Program", or_none(view.program)},
              {"Organ", or_none(r.organ_name + (r.organ_synthetic ? ", synthetic" : ""))},

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/cli/progress_display.h"
 #include "haptics/device/hostmot2/fake_hostmot2.h"
 #include "scenarios/files/device_file.h"
 #include "tests/tissue/support/temporary_folder.h"
@@ -164,6 +165,18 @@ TEST(DevicePinch, OnARealCardNothingIsWrittenWhenNobodySqueezes) {
   EXPECT_CONTAINS(bench.err.str(), "Close the pinch as far as it goes, and hold it: not seen within 2 s");
   EXPECT_FALSE(std::filesystem::exists(bench.options.out));
   EXPECT_FALSE(bench.card->amplifiers_enabled());
+}
+
+TEST(DevicePinch, InterruptedItSaysSoWhereverTheLoopRuns) {
+  Bench bench(draw_parameters(1));
+  bench.options.interrupted = [] { return true; };
+  std::ostringstream out;
+  EXPECT_THROW(device_pinch(bench.options, out, bench.err), Interrupted) << "on a card";
+  EXPECT_FALSE(bench.card->amplifiers_enabled());
+  bench.options.backend = kSimulatedBackend;
+  EXPECT_THROW(device_pinch(bench.options, out, bench.err), Interrupted) << "on the simulated device";
+  EXPECT_EQ(bench.err.str(), "") << "not: not seen within so many seconds";
+  EXPECT_FALSE(std::filesystem::exists(bench.options.out));
 }
 
 }  // namespace

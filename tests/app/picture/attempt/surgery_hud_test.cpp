@@ -8,6 +8,7 @@
 #include "app/picture/attempt/attempt_picture.h"
 #include "scenarios/files/exercise_loader.h"
 #include "tissue/mesh/surface/cut_tracing.h"
+#include "tissue/thin/duct_system.h"
 #include "tissue/tissue_world.h"
 
 namespace trocar::surgery_hud_test {
@@ -93,6 +94,18 @@ TEST_F(FreePlay, ARefusalIsSaidWithItsReasonForAMoment) {
   EXPECT_TRUE(notices("No clip set: no wound between the jaws"));
   take(InstrumentKind::kHook);
   EXPECT_FALSE(notices("Not cut: no wound between the jaws")) << "a hook is not closed";
+}
+
+TEST_F(FreePlay, AClipThatWasPulledOffIsSaidWhateverIsInHand) {
+  frame_.t_s = 10;
+  frame_.surgery.refusal = kClipCameOff;
+  frame_.surgery.refused_s = 9;
+  for (const InstrumentKind kind : {InstrumentKind::kGrasper, InstrumentKind::kHook, InstrumentKind::kClipApplier}) {
+    take(kind);
+    EXPECT_TRUE(notices("A clip was pulled off."));
+  }
+  frame_.t_s = 14;
+  EXPECT_FALSE(notices("A clip was pulled off."));
 }
 
 TEST_F(FreePlay, FastBleedingIsNoticed) {

@@ -14,6 +14,7 @@
 #include "tests/app/session/playback/playback_samples.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/organ/organ_manifest.h"
+#include "trainees/files/free_room.h"
 
 namespace trocar::attempt_keeping_test {
 namespace {

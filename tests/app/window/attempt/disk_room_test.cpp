@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/input_error.h"
+#include "trainees/files/free_room.h"
 
 namespace trocar::disk_room_test {
 namespace {

@@ -92,6 +92,21 @@ TEST(JawFingers, AtAnObjectTheyAreNeverFarAheadOfTheFingers) {
   EXPECT_NEAR(jaw.opening_m(), 0.014 - JawFingers::kAhead_m, 1e-12);
 }
 
+TEST(JawFingers, OpenNoWiderThanTheyCanWhereverTheHandsFingersAre) {
+  constexpr double kFar_m = 0.035;
+  JawFingers jaw;
+  jaw.begin(0.02);
+  run(jaw, kClose, 0.1);
+  jaw.advance({.let_go = true, .fingers_m = kFar_m}, 0.001);
+  EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.02) << "let go";
+  jaw.advance({.close = true, .gripping = true, .fingers_m = kFar_m}, 0.001);
+  EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.02) << "held";
+  jaw.work({.close = true, .gripping = true, .fingers_m = kFar_m}, 0.001);
+  EXPECT_DOUBLE_EQ(jaw.opening_m(), 0.02) << "in tissue";
+  run(jaw, kClose, 0.1);
+  EXPECT_NEAR(jaw.opening_m(), 0.016, 1e-9) << "and close from there";
+}
+
 TEST(JawFingers, ClosedWhileUnusedAndOpenWhenUseBegins) {
   JawFingers jaw;
   jaw.begin(0.02);

@@ -410,6 +410,25 @@ TEST(SteeringSwitches, PedalIsHeldAndAnExchangeIsNeverTooShort) {
   EXPECT_FALSE(s.run(kStep_s).pedal || s.steering.intent().exchange);
 }
 
+TEST(SteeringSwitches, WhatIsInUseIsNotExchangedBeforeTheSwitchIsPressedAnew) {
+  Steered s;
+  s.around.in_use = true;
+  s.press('T');
+  EXPECT_FALSE(s.run(kStep_s).exchange);
+  EXPECT_TRUE(s.steering.refuses_exchange());
+  EXPECT_FALSE(s.run(kStep_s).exchange);
+  EXPECT_FALSE(s.steering.refuses_exchange()) << "told once";
+  s.around.in_use = false;
+  EXPECT_FALSE(s.run(kStep_s).exchange) << "drawn back with the key held: not all of a sudden";
+  s.release('T');
+  s.run(kStep_s);
+  s.press('T');
+  EXPECT_TRUE(s.run(kStep_s).exchange);
+  s.around.in_use = true;  // what is under way goes on
+  EXPECT_TRUE(s.run(kStep_s).exchange);
+  EXPECT_FALSE(s.steering.refuses_exchange());
+}
+
 TEST(SteeringJaws, InTissueHaveAKeyOfTheirOwnAndAreClosedWhileTheTipPresses) {
   Steered s;
   s.around.jaws = false;

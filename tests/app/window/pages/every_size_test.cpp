@@ -240,12 +240,14 @@ TEST_P(EverySize, AfterARun) {
   everywhere(*two, "replay-beside");
 }
 
-/// A live attempt, held still meanwhile: as it stands there, asked to pause, with the device's panel.
+/// A live attempt, held still meanwhile: as it stands there, with the way to the start ball said beside it, asked to
+/// pause, with the device's panel. Free play has a notice at its upper edge from the beginning.
 TEST_P(EverySize, InARun) {
-  for (const char* exercise : {"reach-and-orient", "surface-touch", "limited-grasp"}) {
-    options_.exercise = exercise;
+  for (const char* exercise : {"reach-and-orient", "surface-touch", "limited-grasp", "free-play"}) {
+    const bool free = std::string_view(exercise) == "free-play";
+    if (!free) options_.exercise = exercise;
     open();
-    ASSERT_EQ(model_->begin_attempt(), "");
+    ASSERT_EQ(free ? model_->begin_play(Play::kFree) : model_->begin_attempt(), "");
     RunScreen run;
     const Sight first{640, 400, 1};
     const auto frame = [&](const std::vector<InputEvent>& events = {}) {
@@ -256,8 +258,18 @@ TEST_P(EverySize, InARun) {
       frame();
       return model_->running()->ready() && model_->running()->newest().seen;
     }));
+    frame();  // from here on the hand steers
     model_->running()->pause(true);
-    const std::string name = std::string("run-") + model_->exercise().number;
+    const std::string name = free ? std::string("run-free") : "run-" + model_->exercise().number;
+    if (free && GetParam() == std::string_view("en")) {
+      look(name, {1280, 720, 1}, run);
+      const auto says = [&](std::string_view part) {
+        return std::any_of(texts_.begin(), texts_.end(),
+                           [&](const DrawnText& t) { return t.text.find(part) != std::string::npos; });
+      };
+      EXPECT_TRUE(says("Grasper"));
+      EXPECT_TRUE(says("mm to go")) << "there is room for both";
+    }
     everywhere(run, name);
     everywhere(name + "-device", [&](const std::string& page, const Sight& at) {
       DevicePanel device;

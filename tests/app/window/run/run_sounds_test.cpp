@@ -61,6 +61,22 @@ class RunSoundsTest : public ::testing::Test {
   Sound sound_{true};
 };
 
+TEST_F(RunSoundsTest, CurrentIsHeardWhileItFlowsIntoTissue) {
+  hear();
+  EXPECT_EQ(heard.cautery, 0);
+  moment_.record.stylus.pedal = true;
+  hear();
+  EXPECT_EQ(heard.cautery, 0) << "in the air";
+  moment_.tissue.surgery.contact_c = 50;
+  hear();
+  EXPECT_GT(heard.cautery, 0);
+  RunSounds::hush(sound_);
+  EXPECT_EQ(heard.cautery, 0);
+  moment_.record.stylus.pedal = false;
+  hear();
+  EXPECT_EQ(heard.cautery, 0) << "the tissue is still warm";
+}
+
 TEST_F(RunSoundsTest, WhatStoodSoBeforeTheFirstMomentIsNoNews) {
   moment_.record.stylus.contact = true;
   moment_.record.stylus.loop = LoopState::kFault;

@@ -214,6 +214,12 @@ TEST_F(TutorialBench, FreePlayHasAnOrganAndItsForceAndKeepsNothing) {
   EXPECT_TRUE(until([this] { return now().record.stylus.pedal; }));
   EXPECT_EQ(stage().view.hud.notices.front().text, "Pedal down");
   key_goes(Kind::kKeyUp, 'F');
+  ASSERT_GT(now().record.stylus.F_I_T.force.norm(), 0.05) << "it still presses";
+  tap('T');
+  EXPECT_TRUE(until([this] { return sees("Let go and draw back before you change instruments."); }));
+  EXPECT_EQ(now().record.stylus.instrument, 0);
+  click();  // lets off
+  ASSERT_TRUE(until([this] { return !now().record.stylus.contact; }));
   tap('T');
   EXPECT_TRUE(until([this] { return now().record.stylus.instrument == 1 && !now().record.stylus.pedal; }));
   EXPECT_EQ(stage().view.instrument, InstrumentKind::kScissors);

@@ -49,7 +49,7 @@ TEST(Lbp16, CodesAreSizeAndSign) {
 }
 
 TEST_F(Hostmot2, TheCardAnswersTheGoldenVectorByteForByte) {
-  UdpLink link(card_.address());
+  UdpLink link(card_.address(), "card");
   lbp16::Datagram datagram;
   datagram.add(0x01044282, 4);
   ASSERT_TRUE(link.send(datagram));
@@ -221,7 +221,7 @@ TEST_F(Hostmot2, OneProgramHasTheCardAndAnotherOnTheLinkIsFoundOut) {
   lbp16::Datagram others;  // of another computer, which no claim here keeps away
   add_counter(others, 77);
   add_counter_read(others);
-  UdpLink link(card_.address());
+  UdpLink link(card_.address(), "card");
   ASSERT_TRUE(link.send(others));
   ASSERT_TRUE(link.receive(others, 1));
   EXPECT_TRUE(period(*daq, true, 100).digital_in & kDacMismatch);
@@ -306,7 +306,7 @@ TEST_F(Hostmot2, ACardThatLostItsPowerGivesNoTorqueAndIsFoundOut) {
 TEST_F(Hostmot2, AMillionRandomDatagramsBreakNeitherCardNorDriver) {
   const int frames = test::repeats("PEER_FRAMES", 5000);
   Hostmot2Daq daq(options(0.05));
-  UdpLink stranger(card_.address());
+  UdpLink stranger(card_.address(), "card");
   std::mt19937_64 random(1);
   lbp16::Datagram noise;
   const auto throw_noise = [&] {

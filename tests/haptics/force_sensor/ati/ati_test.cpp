@@ -343,6 +343,11 @@ TEST(NetFtCounts, AnAddressHasTwoPortsAtMost) {
     EXPECT_CONTAINS(test::message_of<InputError>([&] { net_ft_address(wrong); }), "force sensor net-ft:") << wrong;
 }
 
+TEST(NetFt, AnAddressThatNoBoxCanHaveIsSaidToBeTheSensors) {
+  EXPECT_CONTAINS(test::message_of<EnvironmentError>([] { NetFt("255.255.255.255", {}); }),
+                  "force sensor net-ft:255.255.255.255: no way to it");
+}
+
 TEST(NetFt, ASampleAllocatesNothingAndWaitsForNobody) {
   FakeBox box;
   NetFt sensor(box.address(), {});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include "scenarios/director/scoring_context.h"
 #include "scenarios/files/exercise_loader.h"
 #include "scenarios/scoring/metrics.h"
+#include "scenarios/scoring/score.h"
 #include "tests/scenarios/support/bad_exercise.h"
 #include "tissue/thin/duct_system.h"
 #include "tissue/tissue_frame.h"
@@ -72,6 +74,15 @@ struct Bench {
   void cut(int duct, double arc_mm, DuctMark::Kind kind = DuctMark::Kind::kCut) {
     mark({.kind = kind, .duct = duct, .arc_m = 1e-3 * arc_mm});
   }
+  void lose(int duct, double arc_mm) {
+    const auto marks = std::span(frame.duct_mark).first(static_cast<std::size_t>(frame.duct_mark_count));
+    const auto end = std::remove_if(marks.begin(), marks.end(), [&](const DuctMark& mark) {
+      return mark.kind == DuctMark::Kind::kClip && mark.duct == duct && mark.arc_m == 1e-3 * arc_mm;
+    });
+    ASSERT_EQ(marks.end() - end, 1);
+    --frame.duct_mark_count;
+    step(kStep_s);
+  }
   void clip_all(int duct, double angle_deg = 0) {
     for (const double arc : {9.3, 14.3, 23.8}) clip(duct, arc, angle_deg);
   }
@@ -84,19 +95,30 @@ struct Bench {
     return std::count_if(events.begin(), events.end(),
                          [](const Event& e) { return e.severity == Severity::kCritical; });
   }
-  double metric(const char* name) const {
-    ScoringContext context = scoring_context(exercise, level, director.board(), director.events(), director.outcome());
+  ScoringContext context() const {
+    return scoring_context(exercise, level, director.board(), director.events(), director.outcome());
+  }
+  /// The attempt reaches as far as now.
+  std::vector<Metric> metrics() const {
     Trace trace;
     trace.rate_hz = 100;
     trace.samples.resize(1);
-    trace.samples.back().t_s = stylus.t_s;  // the attempt reaches as far as that
-    for (const Metric& metric : compute_metrics(trace, director.events(), context))
+    trace.samples.back().t_s = stylus.t_s;
+    return compute_metrics(trace, director.events(), context());
+  }
+  double metric(const char* name) const {
+    for (const Metric& metric : metrics())
       if (metric.name == name) return metric.value.value_or(-1);
     return -2;
   }
-  int done() const {
-    return scoring_context(exercise, level, director.board(), director.events(), director.outcome()).objects_done;
+  /// Before any cap.
+  double score() const {
+    const AttemptEnd end{AttemptStatus::kCompleted, context().objects_done, kClipAims};
+    double sum = 0;
+    for (const Subscore& one : grade_metrics(metrics(), exercise.rubric, end).subscores) sum += one.weight * one.value;
+    return sum;
   }
+  int done() const { return context().objects_done; }
 };
 
 TEST(ClipTask, IsDoneOnceBothAreNamedClippedAndCutBetween) {
@@ -216,8 +238,57 @@ TEST(ClipTask, AClipThatComesOffIsMissingAgain) {
   EXPECT_EQ(bench.count(event_type::kClipWasted), 1);
   EXPECT_EQ(bench.director.status().target_index, kFirstClipAim);
   EXPECT_EQ(bench.metric("clips_correct_share"), 0);
+  EXPECT_EQ(bench.done(), 2) << "the names";
   bench.clip(kDuct, 9);
   EXPECT_NEAR(bench.metric("clips_correct_share"), 1 / 6.0, 1e-12);
+  EXPECT_EQ(bench.done(), 3);
+}
+
+TEST(ClipTask, AStumpThatLosesItsClipHasOneLessUntilItIsClippedAgain) {
+  Bench bench;
+  bench.name_both();
+  bench.clip_all(kDuct);
+  bench.cut(kDuct, 19.05);
+  bench.lose(kDuct, 23.8);
+  EXPECT_EQ(bench.count(event_type::kClipWasted), 1);
+  EXPECT_EQ(bench.director.status().message, "A clip came off");
+  EXPECT_NEAR(bench.metric("clips_correct_share"), 2 / 6.0, 1e-12);
+  EXPECT_EQ(bench.critical(), 0);
+  bench.clip(kDuct, 24);
+  EXPECT_NEAR(bench.metric("clips_correct_share"), 3 / 6.0, 1e-12);
+  bench.clip_all(kArtery);
+  bench.lose(kArtery, 14.3);
+  bench.cut(kArtery, 19.05);
+  EXPECT_EQ(bench.critical(), 1) << "one before it is too few";
+}
+
+TEST(ClipTask, OfAClipThatComesOffWhatMustBeSparedNothingIsCounted) {
+  Bench bench;
+  bench.clip(kBileDuct, 30);
+  bench.lose(kBileDuct, 30);
+  EXPECT_EQ(bench.count(event_type::kClipWasted), 0) << "who has tried nothing else has no errors to be few of";
+  EXPECT_EQ(bench.critical(), 1);
+}
+
+TEST(ClipTask, AClipThatComesOffNeverRaisesTheScore) {
+  for (const double askew_deg : {0.0, 5.0})
+    for (const bool cut : {false, true})
+      for (const double lost_mm : {9.3, 14.3, 23.8}) {
+        Bench kept, lost;
+        for (Bench* bench : {&kept, &lost}) {
+          bench->name_both();
+          bench->clip_all(kDuct, askew_deg);
+          bench->clip(kArtery, 9.3, 25);
+          if (cut) bench->cut(kDuct, 19.05);
+        }
+        for (const int duct : {kDuct, kArtery}) {
+          const double before = lost.score();
+          lost.lose(duct, duct == kDuct ? lost_mm : 9.3);
+          kept.step(kStep_s);
+          EXPECT_LE(lost.score(), before);
+        }
+        EXPECT_LT(lost.score(), kept.score()) << lost_mm;
+      }
 }
 
 TEST(ClipTask, WhatMustBeSparedIsCritical) {

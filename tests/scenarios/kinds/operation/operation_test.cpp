@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "haptics/input_error.h"
 #include "scenarios/director/scoring_context.h"
@@ -131,6 +132,24 @@ struct Bench {
     stylus.pedal = false;
     step(0.1);
   }
+  void mark(const DuctMark& mark) {
+    frame.duct_mark[static_cast<std::size_t>(frame.duct_mark_count++)] = mark;
+    step(kStep_s);
+  }
+  /// Names, clips and cuts duct and artery.
+  void clip_and_cut() {
+    stylus.instrument = 0;
+    for (int duct = kTriangle; duct < kTriangle + kClipStructures; ++duct) {
+      frame.touched_duct = duct;
+      step(1.5);
+      frame.touched_duct = -1;
+      step(0.5);
+    }
+    for (int duct = kTriangle; duct < kTriangle + kClipStructures; ++duct) {
+      for (const double arc_m : {0.0093, 0.0143, 0.0238}) mark({DuctMark::Kind::kClip, duct, arc_m, 1, 0, 0.002});
+      mark({.kind = DuctMark::Kind::kCut, .duct = duct, .arc_m = 0.01905});
+    }
+  }
   const Event* event(EventType type, int object) const {
     const auto& events = director.events();
     const auto found = std::find_if(events.begin(), events.end(),
@@ -194,13 +213,47 @@ TEST(Operation, EachStageIsScoredOnItsOwnWindow) {
   };
   EXPECT_NEAR(value("retract/object_in_band_share").value_or(-1), 1, 0.02);
   EXPECT_NEAR(value("retract/force_max_n").value_or(-1), 1.6, 1e-9);
-  EXPECT_NEAR(value("dissect/strands_lifted_share").value_or(-1), 1, 1e-9);
+  EXPECT_NEAR(value("dissect/strand_clearance_share").value_or(-1), 1, 1e-9);
   EXPECT_NEAR(value("dissect/safe_energy_share").value_or(-1), 1, 1e-9);
   const std::vector<Event> own = events_of_stage(bench.director.events(), 1, kRetracts, kTriangle);
   EXPECT_NEAR(own.back().t_s - own.front().t_s, 3.3, 0.2);
   EXPECT_EQ(value("clip/clips_correct_share"), std::nullopt) << "nothing was done there";
   EXPECT_EQ(value("detach/spurted_ml"), std::nullopt) << "it never began";
   EXPECT_EQ(parse_scoring_context(scoring_context_json(context), "context"), context);
+}
+
+TEST(Operation, AClipThatComesOffInALaterStageIsLostToItsOwn) {
+  Bench bench;
+  bench.retract();
+  for (int strand = 0; strand < kTriangle; ++strand) bench.divide(strand);
+  bench.clip_and_cut();
+  ASSERT_NE(bench.event(event_type::kStageBegun, 3), nullptr);
+  bench.step(1);
+  const auto correct = [&] {
+    for (const Metric& metric : compute_metrics(bench.trace, bench.director.events(), bench.context()))
+      if (metric.name == "clip/clips_correct_share") return metric.value.value_or(-1);
+    return -2.0;
+  };
+  EXPECT_EQ(correct(), 1);
+  const auto marks = std::span(bench.frame.duct_mark).first(static_cast<std::size_t>(bench.frame.duct_mark_count));
+  const auto end = std::remove_if(marks.begin(), marks.end(), [](const DuctMark& mark) {
+    return mark.kind == DuctMark::Kind::kClip && mark.duct == kTriangle + 1 && mark.arc_m == 0.0238;
+  });
+  ASSERT_EQ(marks.end() - end, 1);
+  --bench.frame.duct_mark_count;
+  bench.step(1);
+  const int first = kRetracts + kTriangle, lost = kFirstClipAim + 2 * kClipsEach - 1;
+  ASSERT_NE(bench.event(event_type::kClipWasted, first + lost), nullptr);
+  EXPECT_NEAR(correct(), 5 / 6.0, 1e-12);
+  const std::vector<Event> own = events_of_stage(bench.director.events(), 2, first, kClipAims);
+  EXPECT_EQ(own.back().type, event_type::kDone);
+  EXPECT_EQ(own[own.size() - 2].type, event_type::kClipWasted);
+  EXPECT_EQ(own[own.size() - 2].object, lost);
+  EXPECT_EQ(own[own.size() - 2].t_s, own.back().t_s);
+  const auto& events = bench.director.events();
+  EXPECT_EQ(
+      std::count_if(events.begin(), events.end(), [](const Event& e) { return e.type == event_type::kClipWasted; }), 1)
+      << "told once";
 }
 
 std::string shipped_with(const std::string& from, const std::string& to) {

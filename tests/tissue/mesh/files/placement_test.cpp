@@ -39,23 +39,24 @@ std::string refusal(const SurfaceFile& file, const SurfaceImportOptions& options
 }
 
 TEST(Placement, EveryUnitScalesToMetres) {
-  for (const auto& [unit, side] : {std::pair("mm", 100.0), {"cm", 10.0}, {"m", 0.1}}) {
+  for (const auto& [unit, side] : {std::pair("mm", 100.0), {"cm", 10.0}, {"m", 0.1}, {"um", 1e5}}) {
     const Placement placement = placed(silent(), declared(unit), side);
     EXPECT_NEAR(placement.placed(Vec3(side, 0, 0)).x(), 0.1, 1e-15) << unit;
     EXPECT_EQ(placement.unit, unit);
     EXPECT_EQ(placement.decisions.at(0), "unit " + std::string(unit) + ": declared");
   }
   EXPECT_EQ(metres_per("mm"), 1e-3);
-  EXPECT_CONTAINS(test::message_of<InputError>([] { metres_per("inch"); }), "--unit inch: mm, cm or m is wanted");
+  EXPECT_CONTAINS(test::message_of<InputError>([] { metres_per("inch"); }), "--unit inch: mm, cm, m or um is wanted");
 }
 
 TEST(Placement, AMissingUnitIsRefusedWithTheUnitsThatWouldFit) {
   EXPECT_CONTAINS(refusal(silent(), {}, 100),
-                  "dir/a.stl: STL carries no unit, say --unit mm, cm or m: bounding box 100 x 100 x 100");
+                  "dir/a.stl: STL carries no unit, say --unit mm, cm, m or um: bounding box 100 x 100 x 100");
   EXPECT_CONTAINS(refusal(silent(), {}, 100), "it would be in mm");
   EXPECT_CONTAINS(refusal(silent(), {}, 10), "it would be in mm or cm");
   EXPECT_CONTAINS(refusal(silent(), {}, 0.1), "it would be in m");
-  EXPECT_CONTAINS(refusal(silent(), {}, 1e-4), "no unit among mm, cm, m fits");
+  EXPECT_CONTAINS(refusal(silent(), {}, 1e5), "it would be in um");
+  EXPECT_CONTAINS(refusal(silent(), {}, 1e-4), "no unit among mm, cm, m, um fits");
 }
 
 TEST(Placement, TheOrgansNameSharpensTheHint) {

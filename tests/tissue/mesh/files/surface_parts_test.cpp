@@ -105,8 +105,8 @@ TEST(SlicerSpaces, AreFoundHoweverTheyAreWritten) {
 }
 
 TEST(SurfaceComment, SaysFrameAndUnitAsWholeWords) {
-  for (const auto& [comment, unit_m] :
-       {std::pair{"SPACE=RAS UNIT=mm", 1e-3}, std::pair{"UNIT=cm\nelement", 1e-2}, std::pair{"UNIT=m", 1.0}}) {
+  for (const auto& [comment, unit_m] : {std::pair{"SPACE=RAS UNIT=mm", 1e-3}, std::pair{"UNIT=cm\nelement", 1e-2},
+                                        std::pair{"UNIT=m", 1.0}, std::pair{"UNIT=um", 1e-6}}) {
     SurfaceFile file;
     take_comment(comment, "a comment", file, "f");
     EXPECT_EQ(file.unit_m, unit_m) << comment;
@@ -116,6 +116,20 @@ TEST(SurfaceComment, SaysFrameAndUnitAsWholeWords) {
     take_comment(other, "a comment", file, "f");
     EXPECT_EQ(file.unit_m, std::nullopt) << other;
   }
+}
+
+TEST(OwnWords, AreLinesOfOurExportAlone) {
+  SurfaceFile file;
+  take_own_words("ply\ncomment TROCAR NAME=left lobe\ncomment TROCAR MATERIAL=liver\n", file);
+  EXPECT_EQ(file.name, "left lobe");
+  EXPECT_EQ(file.material, "liver");
+  SurfaceFile other;
+  take_own_words(
+      "ply\ncomment NAME=a\ncomment by TROCAR NAME=b\nTROCAR MATERIAL=c\ncomment TROCAR NAME=d\x1b\n"
+      "comment TROCAR NAME=\xff\ncomment TROCAR NAME=" +
+          std::string(81, 'e') + "\n",
+      other);
+  EXPECT_EQ(other.name + other.material, "");
 }
 
 TEST(Names, CountsAboveTheCapAreRefused) {

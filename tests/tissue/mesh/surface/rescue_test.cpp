@@ -200,24 +200,68 @@ TEST(Closing, SpecksGoWithTheirCountAndVolume) {
   const ImportedSurface kept = closed(many);
   ASSERT_EQ(kept.lost_volumes_m3.size(), 3U);
   EXPECT_NEAR(kept.lost_volumes_m3[0], 27e-9, 1e-12);
-  EXPECT_CONTAINS(kept.repairs.at(0),
-                  "kept the largest of 4 components (512 of 548 triangles); the others enclose 0.036 mL, the largest "
-                  "of them 0.027 mL");
+  EXPECT_CONTAINS(
+      kept.repairs.at(0),
+      "kept the largest of 4 components (512 of 548 triangles); those left out enclose 0.036 mL, the largest "
+      "of them 0.027 mL");
   EXPECT_TRUE(kept.warnings.empty());
 }
 
-TEST(Closing, LargePartsThatAreLeftOutAreWarnedOf) {
-  const ImportedSurface kept = closed(joined(sphere(Vec3::Zero(), 0.05, 3), sphere(Vec3(0.12, 0, 0), 0.04, 3)));
-  EXPECT_CONTAINS(kept.warnings.at(0), "51.2 % of what was kept");
+TEST(Closing, PartsFromOnePerCentOnAreKeptUnlessTheLargestAloneIsWanted) {
+  const TriangleSurface large = sphere(Vec3::Zero(), 0.05, 3), second = sphere(Vec3(0.12, 0, 0), 0.04, 3);
+  const TriangleSurface third = sphere(Vec3(0, 0.1, 0), 0.0108, 3);   // 1.008 % of the largest
+  const TriangleSurface fourth = sphere(Vec3(0, 0, 0.1), 0.0107, 3);  // 0.980 %
+  const TriangleSurface soup = joined(joined(second, third), joined(large, fourth));
+  const ImportedSurface kept = closed(soup);
+  EXPECT_EQ(kept.surface.triangles.size(), 3 * 512U);
+  EXPECT_EQ(kept.surface.vertices.front(), second.vertices.front()) << "the order is the source's";
+  EXPECT_NEAR(kept.surface.volume_m3(), large.volume_m3() + second.volume_m3() + third.volume_m3(), 1e-12);
+  ASSERT_EQ(kept.lost_volumes_m3.size(), 1U);
+  EXPECT_NEAR(kept.lost_volumes_m3[0], fourth.volume_m3(), 1e-12);
+  EXPECT_CONTAINS(kept.repairs.at(0), "kept 3 of 4 components (1536 of 2048 triangles); those left out enclose ");
+  SurfaceImportOptions options;
+  options.only_largest = true;
+  const ImportedSurface one = closed(soup, options);
+  EXPECT_NEAR(one.surface.volume_m3(), large.volume_m3(), 1e-12);
+  EXPECT_EQ(one.lost_volumes_m3.size(), 3U);
+  EXPECT_CONTAINS(one.warnings.at(0), "53.2 % of what was kept");
 }
 
-TEST(Closing, CavitiesAreFilledAndSaid) {
-  TriangleSurface hollow = joined(sphere(Vec3::Zero(), 0.05, 3), sphere(Vec3(0.01, 0, 0), 0.01, 2));
-  hollow = joined(hollow, sphere(Vec3(0.1, 0, 0), 0.005, 2));  // this one lies outside
-  const ImportedSurface kept = closed(hollow);
-  EXPECT_EQ(kept.lost_volumes_m3.size(), 2U);
-  EXPECT_CONTAINS(all(kept.repairs), "1 of these lie within it: cavities, which are filled so");
+TriangleSurface turned_over(TriangleSurface surface) {
+  for (auto& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+  return surface;
+}
+
+TEST(Closing, CavitiesAreKeptOrFilledAndSaidEitherWay) {
+  const TriangleSurface ball = sphere(Vec3::Zero(), 0.05, 3), hole = sphere(Vec3(0.01, 0, 0), 0.01, 2);
+  const TriangleSurface island = sphere(Vec3(0.01, 0, 0), 0.004, 1);
+  const TriangleSurface soup =
+      joined(joined(joined(ball, turned_over(hole)), island), sphere(Vec3(0.1, 0, 0), 0.005, 2));
+  for (const TriangleSurface& stored : {soup, turned_over(soup)}) {
+    ImportedSurface kept = closed(stored);
+    EXPECT_NEAR(kept.surface.volume_m3(), ball.volume_m3(), 1e-12) << "filled so far";
+    ASSERT_EQ(kept.cavities.size(), 1U);
+    const double cavity_m3 = hole.volume_m3() - island.volume_m3();
+    EXPECT_NEAR(kept.cavities[0].volume_m3(), cavity_m3, 1e-15) << "an island in it is none of it";
+    EXPECT_EQ(kept.lost_volumes_m3.size(), 1U) << "the one that lies outside";
+    ImportedSurface filled = kept;
+    settle_cavities(filled, [](const TriangleSurface&) { return false; });
+    EXPECT_NEAR(filled.surface.volume_m3(), ball.volume_m3(), 1e-12);
+    EXPECT_NEAR(filled.filled_volumes_m3.at(0), cavity_m3, 1e-15);
+    EXPECT_CONTAINS(all(filled.warnings), "a cavity of 3.");
+    settle_cavities(kept, [](const TriangleSurface&) { return true; });
+    EXPECT_NEAR(kept.surface.volume_m3(), ball.volume_m3() - cavity_m3, 1e-12);
+    EXPECT_EQ(analyse_topology(kept.surface).components, 3U);
+    EXPECT_CONTAINS(all(kept.repairs), "kept a cavity of 3.");
+    EXPECT_TRUE(kept.warnings.empty() && kept.cavities.empty() && kept.filled_volumes_m3.empty());
+  }
+}
+
+TEST(Closing, APieceWithinThatIsWoundLikeTheOuterOneIsNoCavity) {
+  const ImportedSurface kept = closed(joined(sphere(Vec3::Zero(), 0.05, 3), sphere(Vec3(0.01, 0, 0), 0.02, 2)));
+  EXPECT_TRUE(kept.cavities.empty() && kept.lost_volumes_m3.empty());
   EXPECT_NEAR(kept.surface.volume_m3(), sphere(Vec3::Zero(), 0.05, 3).volume_m3(), 1e-12);
+  EXPECT_CONTAINS(all(kept.repairs), "left out 1 components that lie within others and enclose nothing more");
 }
 
 TEST(Closing, ThinDoubleWallsAreNamed) {

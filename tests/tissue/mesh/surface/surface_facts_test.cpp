@@ -184,19 +184,6 @@ TEST(WithoutSpecks, LeavesEverythingLargeEnough) {
   EXPECT_TRUE(lost.empty());
 }
 
-TEST(LargestComponent, ListsTheOthersLargestFirst) {
-  TriangleSurface all = test::box(Vec3::Zero(), Vec3(0.1, 0.1, 0.1));
-  all = test::joined(all, test::box(Vec3(1, 0, 0), Vec3(1.5, 0.5, 0.5)));
-  all = test::joined(all, test::box(Vec3(3, 0, 0), Vec3(4, 1, 1)));
-  all = test::joined(all, turned_over(test::box(Vec3(5, 0, 0), Vec3(5.3, 0.3, 0.3))));
-  std::vector<double> lost;
-  EXPECT_NEAR(largest_component(all, &lost).volume_m3(), 1, 1e-12);
-  ASSERT_EQ(lost.size(), 3U);
-  EXPECT_NEAR(lost[0], 0.125, 1e-12);
-  EXPECT_NEAR(lost[1], 0.027, 1e-12);
-  EXPECT_NEAR(lost[2], 0.001, 1e-12);
-}
-
 TEST(AreaAndCentroid, MoveWithTheBodyAndScaleByPowers) {
   const TriangleSurface ring = torus(0.05, 0.02, 96, 48);
   const double pi = std::numbers::pi;

@@ -198,8 +198,9 @@ TEST(AttemptReport, VerdictEventsMetricsRunReportAndHashes) {
         "The score is capped: safety gate: in band 58 %, the gate asks 65 % or more: at most 59", "Excess force",
         "major", "largest |F| of the scene on the instrument", "Ticks missed", "sensor stale", "0.25 s",
         "0123456789abcdef", "Dr Ines Okafor", "Depth perception", "No picture: this machine has no graphics.",
-        "Virtual newtons", "trocar 0.7", "from above (x right, y up)"})
+        "Virtual newtons", "trocar 0.7", "from above (x right, y up)", "Surface touch, version 1.0, level L2"})
     EXPECT_TRUE(pdf.holds(words)) << words;
+  EXPECT_FALSE(pdf.holds("surface-touch")) << "titles, as on the pages";
   EXPECT_TRUE(pdf.holds(std::string(64, 'd'))) << "the row hash, whole";
 }
 
