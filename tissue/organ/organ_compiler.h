@@ -35,7 +35,7 @@ struct CompiledOrgan {
 /// @throws InputError when the label is absent or too small to mesh
 CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileOptions& options);
 
-/// @param surface closed, manifold, outward, one component, m
+/// @param surface closed, manifold, outward; components apart from each other, cavities within them; m
 CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptions& options);
 
 }  // namespace trocar

@@ -94,6 +94,21 @@ TEST(OrganReport, TextSaysTheCutTheRepairsAndWhoMadeIt) {
   EXPECT_CONTAINS(text(), "and 3 smaller parts");
 }
 
+TEST(OrganReport, AFormThatTooFewTrianglesLoseIsSaid) {
+  CompiledMember organ = member("liver");
+  MeshFacts& mesh = organ.manifest.mesh;
+  const auto text = [&] { return organ_text(organ.manifest, organ.surface.bounds()); };
+  mesh.kept_error_pct = 0.9, mesh.voxel_m = 0.001, mesh.distance.mean_m = 0.0009;
+  EXPECT_EQ(text().find("NOT AS LABELLED"), std::string::npos);
+  mesh.kept_error_pct = -35.5;
+  EXPECT_CONTAINS(text(), "NOT AS LABELLED  its volume is off by -35.50 %: ");
+  mesh.kept_error_pct = 0, mesh.distance.mean_m = 0.004;
+  EXPECT_CONTAINS(text(), "its surface lies 4.00 mm off on average, voxels are 1.00 mm: ");
+  EXPECT_CONTAINS(organ_summary(organ.manifest, organ.surface.bounds(), "m"), "are too few for this form");
+  mesh.repairs = {"wrapped with alpha 2.5 mm"};
+  EXPECT_CONTAINS(text(), "or the wrap is too wide (--wrap-alpha)");
+}
+
 TEST(OrganReport, OfASceneHoldsEveryOrgansOwnReport) {
   const std::vector<CompiledMember> organs{member("liver"), member("spleen", Vec3(0.1, 0, 0))};
   const Json json = Json::parse(scene_report_json(pair_set(), organs));

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "haptics/input_error.h"
+#include "haptics/utf8.h"
 #include "tissue/imaging/volumes/nrrd_header.h"
 
 namespace trocar {
@@ -79,7 +80,7 @@ std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
     const std::string what = key.substr(bar + 1);
     SegmentEntry& entry = entries[*index];
     entry.line = std::max(entry.line, value.line);
-    if (what == "Name") entry.told.name = readable_name(value.text);
+    if (what == "Name" && is_utf8(value.text)) entry.told.name = readable_name(value.text);
     if (what == "Color") entry.told.colour = colour_in(value.text);
     if (what == "Tags") entry.told.codes = codes_in(value.text);
     if (what == "LabelValue") entry.number = wanted_number(header, key, value, 1, 65535);

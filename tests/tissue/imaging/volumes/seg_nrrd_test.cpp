@@ -65,6 +65,19 @@ TEST(SegNrrd, OneLayerKeepsItsNames) {
   EXPECT_TRUE(test::has_note(map.notes, "\"never\" marks no voxel"));
 }
 
+/// "Leber" with an a umlaut of Latin-1: guessed at it would be another name.
+TEST(SegNrrd, ANameThatIsNotUtf8IsNone) {
+  test::TemporaryFolder folder;
+  const std::string keys =
+      "Segment0_Name:=Le\xe4"
+      "ber\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n";
+  const LabelMap map = read_label_map(folder.write(
+      "a.seg.nrrd",
+      start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({1, 0, 0, 1, 0, 0, 0, 0}))));
+  ASSERT_EQ(map.segments.size(), 1U);
+  EXPECT_EQ(map.segments[0].name, "");
+}
+
 TEST(SegNrrd, OldFormHasOneComponentASegment) {
   test::TemporaryFolder folder;
   const std::string keys = "Segment0_ID:=S1\nSegment0_Name:=liver\nSegment1_ID:=S2\nSegment1_Name:=tumour\n";
