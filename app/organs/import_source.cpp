@@ -12,6 +12,7 @@
 #include "tissue/imaging/labels/label_grid.h"
 #include "tissue/imaging/labels/segmentation.h"
 #include "tissue/imaging/volumes/volume_reader.h"
+#include "tissue/organ/file_lock.h"
 #include "tissue/organ/surface_import.h"
 
 namespace trocar {
@@ -211,7 +212,7 @@ std::string hash_of_input(const std::string& input) {
   if (!fs::is_directory(input)) return digest::of_file(input);
   std::vector<std::string> hashes;
   for (const auto& entry : fs::recursive_directory_iterator(input))
-    if (entry.is_regular_file()) hashes.push_back(digest::of_file(entry.path()));
+    if (entry.is_regular_file() && !is_name_lock(entry.path())) hashes.push_back(digest::of_file(entry.path()));
   std::sort(hashes.begin(), hashes.end());
   std::string all;
   for (const std::string& hash : hashes) all += hash;

@@ -11,6 +11,7 @@
 #include "tissue/imaging/dicom/dicom_segmentation.h"
 #include "tissue/imaging/dicom/segment_layers.h"
 #include "tissue/imaging/labels/label_grid.h"
+#include "tissue/organ/file_lock.h"
 #include "tissue/organ/organ_set.h"
 #include "tissue/organ/surface_import.h"
 
@@ -45,7 +46,7 @@ void take(OrganFiles& files, Kind kind, const fs::path& path) {
 std::optional<OrganFiles> of_folder(const fs::path& folder) {
   OrganFiles files{folder.string(), {}, {}};
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
+    if (!entry.is_regular_file() || is_name_lock(entry.path())) continue;
     Kind kind = kind_of_name(entry.path().string());
     if (kind == Kind::kDicom || (kind == Kind::kOther && has_dicom_signature(entry.path()))) return std::nullopt;
     take(files, kind, entry.path());

@@ -22,6 +22,7 @@
 #include "tissue/imaging/volumes/volume_reader.h"
 #include "tissue/mesh/files/surface_pieces.h"
 #include "tissue/mesh/files/winding.h"
+#include "tissue/organ/file_lock.h"
 #include "tissue/organ/organ_compiler.h"
 #include "tissue/organ/scene_compiler.h"
 #include "tissue/organ/surface_import.h"
@@ -107,6 +108,12 @@ auto with_file_named(const std::string& file, Work work) {
   }
 }
 
+/// A single organ whose form too few triangles cannot hold is not one: its numbers would be those of another body.
+CompiledOrgan with_its_form(CompiledOrgan&& organ) {
+  if (organ.lost) throw InputError(lost_form_words(*organ.lost));
+  return std::move(organ);
+}
+
 WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& source, const ChosenLabel& label,
                            std::vector<std::string> decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
@@ -117,7 +124,7 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
   const MeshFit fit = options.synthetic ? MeshFit::kAlongNormals : MeshFit::kOntoBends;
   const CompileOptions how{options.triangles, {.only_largest = options.largest_only}, options.progress, fit};
   CompiledOrgan organ = with_file_named(source_file_of(source, label.segment.number),
-                                        [&] { return compile_label(layer, label.segment.number, how); });
+                                        [&] { return with_its_form(compile_label(layer, label.segment.number, how)); });
   manifest.mesh = std::move(organ.facts);
   manifest.decisions = untold(decisions, manifest.mesh.repairs);
   std::vector<SideFile> files = volume_meshes(options, stem, organ.surface, {&layer, label.segment.number}, manifest);
@@ -197,9 +204,10 @@ WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::p
     if (naming.name != by_default && options.name.empty())
       naming.decisions.push_back("called \"" + own + "\" as a comment of our own export says");
   }
+  CompiledOrgan organ = with_file_named(
+      path.string(), [&] { return with_its_form(compile_surface(source.surface, surface_compiling(options))); });
   WrittenOrgans written;
-  written.organs.push_back(surface_member(
-      options, path, naming, source, compile_surface(source.surface, surface_compiling(options)), stem, written.files));
+  written.organs.push_back(surface_member(options, path, naming, source, std::move(organ), stem, written.files));
   return written;
 }
 
@@ -558,6 +566,7 @@ WrittenOrgans import_organs(const OrganImportOptions& options, std::ostream& err
   check_options(options);
   const fs::path stem = stem_of(options.output);
   check_not_input(stem, options);
+  const NameLock lock(stem);  // from before the old manifest is read until the last file has its name
   WrittenOrgans written;
   if (is_surface_input(options)) {
     written = import_surface_file(options, options.input, stem);

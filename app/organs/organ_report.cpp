@@ -248,48 +248,82 @@ std::string organ_summary(const OrganManifest& manifest, const Eigen::AlignedBox
   return out.str() + "  more       trocar organ info " + manifest_file + ", or a page with --report\n";
 }
 
-/// "stomach +41.8 %, spleen -0.4 %": organs with a value that is to be told, the worst first. @param format of the value
-template <typename Value, typename Told>
-std::string worst_organs(const std::vector<CompiledMember>& organs, const char* format, Value value, Told told) {
+std::string lost_form_words(const LostForm& form) {
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(1);
+  out << form.triangles << " triangles are too few for a body " << form.thickness_m * 1e3 << " mm thick: ";
+  if (form.volume_lost)
+    out << "its volume would be off by " << std::showpos << form.volume_error_pct << std::noshowpos << " %";
+  else if (form.extent_lost)
+    out << "it would be " << form.extent_m * 1e3 << " mm long where it should be " << form.wanted_m * 1e3;
+  else
+    out << "its surface would lie " << form.mean_m * 1e3 << " mm off on average, a hundredth of it more than "
+        << form.p99_m * 1e3 << " mm";
+  out << ": --triangles " << form.enough;
+  return out.str();
+}
+
+namespace {
+
+/// What is told of an organ, and how bad it is.
+struct OrganFault {
+  double badness = 0, shown = 0;
+};
+
+/// "stomach +41.8 %, spleen -0.4 %": the organs of which `fault_of` tells something, the worst first.
+template <typename FaultOf>
+std::string worst_organs(const std::vector<CompiledMember>& organs, const char* format, FaultOf fault_of) {
   constexpr std::size_t kListed = 4;
-  std::vector<std::pair<double, std::string>> off;
+  std::vector<std::pair<OrganFault, std::string>> off;
   for (const CompiledMember& organ : organs)
-    if (told(organ.manifest.mesh)) off.emplace_back(value(organ.manifest.mesh), organ.manifest.name);
+    if (const std::optional<OrganFault> fault = fault_of(organ.manifest.mesh))
+      off.emplace_back(*fault, organ.manifest.name);
   std::stable_sort(off.begin(), off.end(),
-                   [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+                   [](const auto& a, const auto& b) { return a.first.badness > b.first.badness; });
   std::vector<std::string> words;
-  for (const auto& [number, name] : off) {
+  for (const auto& [fault, name] : off) {
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), format, number);
+    std::snprintf(text.data(), text.size(), format, fault.shown);
     words.push_back(name + text.data());
   }
   return listed_words(words, kListed);
 }
 
-/// "stomach +41.8 % of their volume (...); vein 4.1 mm off its place (...)": where organs of a scene are not their
-/// labels, or have triangles that no solver likes; "" where all are well.
+/// "stomach +41.8 % of their volume (...); vein 4.1 mm between ...": where organs of a scene are not their labels, or
+/// have triangles that no solver likes; "" where all are well.
 std::string not_as_labelled(const std::vector<CompiledMember>& organs) {
-  constexpr double kVolumePct = 0.2, kHalfDiagonal = 0.866, kLeastAngleDeg = 5;  // of a voxel's edge
-  const std::string volumes = worst_organs(
-      organs, " %+.1f %%", [](const MeshFacts& mesh) { return mesh.volume_error_pct; },
-      [](const MeshFacts& mesh) { return mesh.label_volume_ml && std::abs(mesh.volume_error_pct) > kVolumePct; });
-  const std::string places = worst_organs(
-      organs, " %.1f mm", [](const MeshFacts& mesh) { return mesh.centroid_offset_m * 1e3; },
-      [](const MeshFacts& mesh) { return mesh.voxel_m > 0 && mesh.centroid_offset_m > kHalfDiagonal * mesh.voxel_m; });
-  const std::string angles = worst_organs(
-      organs, " %.1f deg", [](const MeshFacts& mesh) { return mesh.quality.min_angle_deg; },
-      [](const MeshFacts& mesh) {
-        return mesh.topology.triangles > 0 && mesh.quality.min_angle_deg < kLeastAngleDeg;
-      });
+  using Fault = std::optional<OrganFault>;
+  constexpr double kVolumePct = 0.2, kLeastAngleDeg = 5;
+  constexpr double kHalfDiagonal = 0.866;  // voxels
+  const std::string volumes = worst_organs(organs, " %+.1f %%", [](const MeshFacts& mesh) -> Fault {
+    const double off = std::abs(mesh.volume_error_pct);
+    return mesh.label_volume_ml && off > kVolumePct ? Fault({off, mesh.volume_error_pct}) : std::nullopt;
+  });
+  const std::string places = worst_organs(organs, " %.1f mm", [](const MeshFacts& mesh) -> Fault {
+    const double off = mesh.centroid_offset_m;
+    return mesh.voxel_m > 0 && off > kHalfDiagonal * mesh.voxel_m ? Fault({off, off * 1e3}) : std::nullopt;
+  });
+  const std::string forms = worst_organs(organs, " %.1f mm", [](const MeshFacts& mesh) -> Fault {
+    const double off = std::max(mesh.distance.mean_m, mesh.distance_back.mean_m);
+    return mesh.voxel_m > 0 && off > mesh.voxel_m ? Fault({off, off * 1e3}) : std::nullopt;
+  });
+  const std::string angles = worst_organs(organs, " %.1f deg", [](const MeshFacts& mesh) -> Fault {
+    const double least = mesh.quality.min_angle_deg;
+    return mesh.topology.triangles > 0 && least < kLeastAngleDeg ? Fault({-least, least}) : std::nullopt;
+  });
   std::string text;
   const auto add = [&](const std::string& list, const char* what) {
     if (!list.empty()) text += (text.empty() ? "" : "; ") + list + what;
   };
   add(volumes, " of their volume (parts, cavities, bridges: trocar organ info)");
+  add(forms, " off their surface on average (more --triangles)");
   add(places, " between the centres of label and surface (thin ends are gone: more --triangles)");
   add(angles, " in the sharpest triangle");
   return text;
 }
+
+}  // namespace
 
 std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>& organs,
                           const std::string& manifest_file) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tissue/organ/lost_form.h"
 #include "tissue/organ/organ_set.h"
 
 namespace trocar {
@@ -20,6 +21,9 @@ std::string scene_summary(const OrganSet& set, const std::vector<CompiledMember>
                           const std::string& manifest_file);
 
 std::string organ_text(const OrganManifest& manifest, const Eigen::AlignedBox3d& bounds);
+
+/// "800 triangles are too few for a body 3.1 mm thick: ..., --triangles 5400".
+std::string lost_form_words(const LostForm& form);
 
 std::string scene_report_json(const OrganSet& set, const std::vector<CompiledMember>& organs);
 std::string scene_report_text(const OrganSet& set, const std::vector<CompiledMember>& organs);

@@ -194,7 +194,8 @@ CompiledOrgan compile_label(const LabelVolume& volume, int label, const CompileO
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, source.kept_m3, source.sharp, source.centroid_m, facts);
-  return {std::move(mesh.surface), std::move(facts)};
+  const auto lost = lost_form(mesh.surface, source.dense, facts, options.triangles);
+  return {std::move(mesh.surface), std::move(facts), lost};
 }
 
 CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptions& options) {
@@ -205,7 +206,8 @@ CompiledOrgan compile_surface(const TriangleSurface& surface, const CompileOptio
   report(options.progress, "measuring", 0);
   facts.self_intersections = mesh.self_intersections;
   measure(mesh.surface, surface.volume_m3(), surface, volume_centroid_m(surface), facts);
-  return {std::move(mesh.surface), std::move(facts)};
+  const auto lost = lost_form(mesh.surface, surface, facts, options.triangles);
+  return {std::move(mesh.surface), std::move(facts), lost};
 }
 
 }  // namespace trocar

@@ -10,6 +10,7 @@
 #include "tissue/imaging/labels/label_volume.h"
 #include "tissue/mesh/surface/mesh_facts.h"
 #include "tissue/mesh/surface/triangle_surface.h"
+#include "tissue/organ/lost_form.h"
 #include "tissue/progress.h"
 
 namespace trocar {
@@ -30,6 +31,7 @@ struct CompileOptions {
 struct CompiledOrgan {
   TriangleSurface surface;
   MeshFacts facts;
+  std::optional<LostForm> lost = {};  ///< where the triangles asked for are too few for it
 };
 
 /// @throws InputError when the label is absent or too small to mesh

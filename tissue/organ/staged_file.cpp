@@ -1,26 +1,18 @@
 #include "tissue/organ/staged_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
 #include "haptics/input_error.h"
+#include "tissue/organ/file_lock.h"
 
 namespace trocar {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int code) {
   throw EnvironmentError(path.string() + ": cannot be written: " + std::strerror(code));
-}
-
-void make_folder(const std::filesystem::path& target) {
-  if (!target.has_parent_path()) return;
-  std::error_code error;
-  std::filesystem::create_directories(target.parent_path(), error);
-  if (error) fail(target.parent_path(), error.value());
 }
 
 /// @return 0, or the errno of the first step that failed
@@ -38,13 +30,7 @@ int write_all(int descriptor, std::string_view bytes) {
 
 StagedFile::StagedFile(std::filesystem::path target, std::string_view bytes)
     : target_(std::move(target)), temporary_(target_.string() + ".part") {
-  make_folder(target_);
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) fail(target_, errno);
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor_);
-    throw EnvironmentError(target_.string() + ": another program is just writing it");
-  }
+  descriptor_ = open_locked(temporary_, target_);
   int code = ::ftruncate(descriptor_, 0) == 0 ? 0 : errno;
   if (code == 0) code = write_all(descriptor_, bytes);
   if (code == 0) return;

@@ -8,7 +8,7 @@
 namespace trocar {
 namespace {
 
-constexpr int kSweeps = 8;
+constexpr int kAngleSweeps = 8;
 constexpr double kTurnedOver = 2;                     ///< in place of a cosine
 constexpr double kFirstStep = 0.3, kLastStep = 0.01;  ///< of the shortest edge round the node
 
@@ -103,7 +103,7 @@ class Smoother {
 
 void improve_angles(TetrahedraMesh& mesh, const std::vector<double>& reach, double wanted_deg) {
   Smoother smoother(mesh, reach);
-  for (int round = 0; round < kSweeps && smoother.sweep(wanted_deg); ++round) {
+  for (int round = 0; round < kAngleSweeps && smoother.sweep(wanted_deg); ++round) {
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/organs/import_source.h"
 #include "app/organs/organ_import.h"
 #include "app/organs/organ_info.h"
 #include "app/organs/organ_package.h"
@@ -13,6 +14,7 @@
 #include "tests/tissue/support/shapes.h"
 #include "tests/tissue/support/temporary_folder.h"
 #include "tissue/imaging/volumes/nifti_writer.h"
+#include "tissue/organ/file_lock.h"
 #include "tissue/organ/organ.h"
 
 namespace trocar::organ_again_test {
@@ -111,6 +113,42 @@ TEST(OrganAgain, AnInputOrADamagedOldManifestLosesNothing) {
   fs::remove(ball.folder / "out.ply");
   ball.imported();
   EXPECT_TRUE(fs::exists(ball.folder / "out.msh"));
+}
+
+/// Another program that imports to this name has its lock from the beginning on.
+TEST(OrganAgain, WhileAnotherProgramWritesThisNameTheImportIsRefused) {
+  Ball ball;
+  ball.imported();
+  const std::string before = read_bytes(ball.folder / "out.organ.toml");
+  ball.options.triangles = 900;
+  {
+    const NameLock other(ball.folder / "out");
+    EXPECT_CONTAINS(test::message_of<EnvironmentError>([&] { ball.imported(); }),
+                    "out: another program is just writing it");
+    EXPECT_EQ(read_bytes(ball.folder / "out.organ.toml"), before);
+    ball.options.output = (ball.folder / "another").string();
+    ball.imported();
+  }
+  ball.options.output = (ball.folder / "out").string();
+  ball.imported();
+  EXPECT_EQ(ball.files(), (Names{"map.nii.gz", "another.organ.toml", "another.ply", "out.organ.toml", "out.ply"}));
+}
+
+/// Written among its inputs, an organ's source has the hash that it has without it.
+TEST(OrganAgain, ALockAmongTheInputsIsNoInput) {
+  const test::TemporaryFolder folder;
+  folder.write("map.nii.gz", "x");
+  const std::string before = hash_of_input(folder.path().string());
+  const NameLock lock(folder / "out");
+  EXPECT_EQ(hash_of_input(folder.path().string()), before);
+}
+
+TEST(OrganAgain, AnImportThatFailsLeavesNeitherLockNorFolder) {
+  Ball ball;
+  ball.options.output = (ball.folder / "new/er/out").string();
+  ball.options.label = {"7"};
+  EXPECT_THROW(ball.imported(), InputError);
+  EXPECT_EQ(ball.files(), (Names{"map.nii.gz"}));
 }
 
 /// What lies there under a name that the import wants stays, and nothing else is written.

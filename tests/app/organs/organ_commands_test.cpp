@@ -52,6 +52,30 @@ std::string refusal(const OrganImportOptions& options) {
   return test::message_of<InputError>([&] { organ_import(options, out, err); });
 }
 
+/// A slab of three slices swells to four times its thickness with 200 triangles, and keeps its form with as many as the
+/// refusal names.
+TEST(OrganImport, ASlabOfTooFewTrianglesIsRefusedWithTheNumberThatIsEnough) {
+  const test::TemporaryFolder folder;
+  LabelVolume slab;
+  slab.size = {68, 68, 11};
+  for (int k = 0; k < 11; ++k)
+    for (int j = 0; j < 68; ++j)
+      for (int i = 0; i < 68; ++i)
+        slab.labels.push_back(k >= 4 && k < 7 && j >= 4 && j < 64 && i >= 4 && i < 64 ? 1 : 0);
+  OrganImportOptions options = options_for(
+      folder.write("slab.nii.gz", nifti_gz_bytes(slab.size, slab.index_to_ras_mm, slab.labels)), folder / "out");
+  options.material = "soft_tissue", options.triangles = 200;
+  const std::string message = refusal(options);
+  EXPECT_CONTAINS(message, "slab.nii.gz: 200 triangles are too few for a body ");
+  const std::string advice = ": --triangles ";
+  ASSERT_NE(message.find(advice), std::string::npos) << message;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.organ.toml"));
+  options.triangles = std::stoi(message.substr(message.find(advice) + advice.size()));
+  const Json report = imported(options).report;
+  EXPECT_NEAR(report["kept_error_pct"].get<double>(), 0, 0.1);
+  EXPECT_NEAR(1e3 * (report["bbox_m"][1][2].get<double>() - report["bbox_m"][0][2].get<double>()), 3, 1);
+}
+
 TEST(OrganImport, JsonHasEveryKeyOfTheInterface) {
   test::TemporaryFolder folder;
   const Outcome outcome = imported(options_for(write_map(folder, "liver.nii.gz", false), folder / "out"));

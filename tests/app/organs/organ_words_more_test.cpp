@@ -109,6 +109,27 @@ TEST(OrganReport, AFormThatTooFewTrianglesLoseIsSaid) {
   EXPECT_CONTAINS(text(), "or the wrap is too wide (--wrap-alpha)");
 }
 
+/// Half a diagonal of a voxel of 1 mm is 0.87 mm. A volume made up elsewhere hides neither a tip nor a swelling.
+TEST(OrganReport, WhereOrgansOfASceneAreNotTheirLabelsIsSaid) {
+  std::vector<CompiledMember> organs{member("liver"), member("vein"), member("duct"), member("slab")};
+  for (CompiledMember& organ : organs) {
+    MeshFacts& mesh = organ.manifest.mesh;
+    mesh.label_volume_ml = mesh.volume_ml, mesh.voxel_m = 1e-3, mesh.quality.min_angle_deg = 20;
+    mesh.centroid_offset_m = 0.86e-3, mesh.volume_error_pct = 0.1;
+  }
+  EXPECT_EQ(scene_summary(pair_set(), organs, "m").find("not as labelled"), std::string::npos);
+  organs[0].manifest.mesh.volume_error_pct = -0.3;
+  organs[1].manifest.mesh.centroid_offset_m = 4.1e-3;
+  organs[2].manifest.mesh.centroid_offset_m = 0.88e-3;
+  organs[1].manifest.mesh.quality.min_angle_deg = 4.9, organs[2].manifest.mesh.quality.min_angle_deg = 0.6;
+  organs[3].manifest.mesh.distance_back.mean_m = 4.7e-3;
+  EXPECT_CONTAINS(scene_summary(pair_set(), organs, "m"),
+                  "  not as labelled: liver -0.3 % of their volume (parts, cavities, bridges: trocar organ info); "
+                  "slab 4.7 mm off their surface on average (more --triangles); "
+                  "vein 4.1 mm, duct 0.9 mm between the centres of label and surface (thin ends are gone: more "
+                  "--triangles); duct 0.6 deg, vein 4.9 deg in the sharpest triangle\n");
+}
+
 TEST(OrganReport, OfASceneHoldsEveryOrgansOwnReport) {
   const std::vector<CompiledMember> organs{member("liver"), member("spleen", Vec3(0.1, 0, 0))};
   const Json json = Json::parse(scene_report_json(pair_set(), organs));

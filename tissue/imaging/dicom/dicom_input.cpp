@@ -8,6 +8,7 @@
 #include "haptics/input_error.h"
 #include "tissue/imaging/dicom/dicom_elements.h"
 #include "tissue/imaging/dicom/dicom_tags.h"
+#include "tissue/organ/file_lock.h"
 
 namespace trocar {
 namespace {
@@ -54,7 +55,7 @@ void DicomInput::walk(const fs::path& folder) {
   if (error) throw InputError(name_ + ": the folder cannot be read: " + error.message());
   for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     if (error) throw InputError(name_ + ": the folder cannot be read: " + error.message());
-    if (!entry->is_regular_file(error)) continue;
+    if (!entry->is_regular_file(error) || is_name_lock(entry->path())) continue;
     if (files_.size() >= kMostFiles)
       throw InputError(name_ + ": holds more than " + std::to_string(kMostFiles) + " files");
     files_.push_back({entry->path(), entry->path().string()});

@@ -6,10 +6,13 @@
 namespace trocar {
 
 std::string readable_name(std::string text) {
-  constexpr std::size_t kMost = 80;
-  for (char& letter : text)
-    if (static_cast<unsigned char>(letter) < ' ' || letter == 0x7f) letter = ' ';
-  std::size_t end = std::min(text.size(), kMost);
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const auto letter = static_cast<unsigned char>(text[n]);
+    const auto next = static_cast<unsigned char>(n + 1 < text.size() ? text[n + 1] : 0);
+    if (letter < ' ' || letter == 0x7f) text[n] = ' ';
+    if (letter == 0xc2 && next >= 0x80 && next < 0xa0) text[n] = text[n + 1] = ' ';
+  }
+  std::size_t end = std::min(text.size(), kReadableBytes);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
   text.resize(end);
   while (!text.empty() && text.back() == ' ') text.pop_back();

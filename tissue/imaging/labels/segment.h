@@ -30,8 +30,10 @@ struct Segment {
   std::vector<SegmentCode> codes = {};  ///< in the order of the roles above
 };
 
-/// A name as a file has it, made fit to be printed: no control characters, no blanks round it, at most 80 bytes (cut
-/// between the letters of UTF-8).
+inline constexpr std::size_t kReadableBytes = 80;
+
+/// A name as a file has it, made fit to be printed: blanks for control characters (C0, DEL and C1), no blanks round it,
+/// at most kReadableBytes (cut between the letters of UTF-8).
 std::string readable_name(std::string text);
 
 /// Names as they are compared: "Left Kidney", "left-kidney" and "left_kidney" are one. ASCII letters small, whatever is

@@ -60,6 +60,21 @@ std::vector<SegmentCode> codes_in(const std::string& tags) {
   return codes;
 }
 
+/// The name as it is shown; what was changed in it is told.
+std::string told_name(const std::string& key, const std::string& text, std::vector<std::string>& notes) {
+  if (!is_utf8(text)) {
+    notes.push_back(key + ": the name is not UTF-8, as organ files are: the segment has none");
+    return "";
+  }
+  std::string name = readable_name(text);
+  if (harmless(text) != text) notes.push_back(key + ": blanks stand for control characters: \"" + name + "\"");
+  const std::size_t last = text.find_last_not_of(' ');
+  if (last != std::string::npos && last >= kReadableBytes)
+    notes.push_back(key + ": the name is longer than " + std::to_string(kReadableBytes) + " bytes, and was cut to \"" +
+                    name + "\"");
+  return name;
+}
+
 int wanted_number(const NrrdFields& header, const std::string& key, const NrrdText& value, int least, int most) {
   const auto number = whole_number(value.text);
   if (!number || *number < least || *number > most)
@@ -69,7 +84,7 @@ int wanted_number(const NrrdFields& header, const std::string& key, const NrrdTe
 }
 
 /// Keys "Segment12_Name" by their number.
-std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
+std::map<int, SegmentEntry> entries_of(const NrrdFields& header, std::vector<std::string>& notes) {
   constexpr std::string_view kPrefix = "Segment";
   std::map<int, SegmentEntry> entries;
   for (const auto& [key, value] : header.keys) {
@@ -80,9 +95,10 @@ std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
     const std::string what = key.substr(bar + 1);
     SegmentEntry& entry = entries[*index];
     entry.line = std::max(entry.line, value.line);
-    if (what == "Name" && is_utf8(value.text)) entry.told.name = readable_name(value.text);
+    if (what == "Name") entry.told.name = told_name(key, value.text, notes);
     if (what == "Color") entry.told.colour = colour_in(value.text);
-    if (what == "Tags") entry.told.codes = codes_in(value.text);
+    if (what == "Tags" && is_utf8(value.text)) entry.told.codes = codes_in(value.text);
+    if (what == "Tags" && !is_utf8(value.text)) notes.push_back(key + ": not UTF-8: its codes are left out");
     if (what == "LabelValue") entry.number = wanted_number(header, key, value, 1, 65535);
     if (what == "Layer") entry.layer = wanted_number(header, key, value, 0, 65535);
   }
@@ -92,7 +108,7 @@ std::map<int, SegmentEntry> entries_of(const NrrdFields& header) {
 }  // namespace
 
 std::vector<Segment> nrrd_segments(const NrrdFields& header, int components, std::vector<std::string>& notes) {
-  const std::map<int, SegmentEntry> entries = entries_of(header);
+  const std::map<int, SegmentEntry> entries = entries_of(header, notes);
   std::vector<Segment> segments;
   for (const auto& [index, entry] : entries) {
     const bool old_style = !entry.layer && !entry.number && components > 1;  // before Slicer 4.11: one component each

@@ -76,6 +76,26 @@ TEST(SegNrrd, ANameThatIsNotUtf8IsNone) {
       start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({1, 0, 0, 1, 0, 0, 0, 0}))));
   ASSERT_EQ(map.segments.size(), 1U);
   EXPECT_EQ(map.segments[0].name, "");
+  EXPECT_TRUE(test::has_note(map.notes, "Segment0_Name: the name is not UTF-8"));
+}
+
+/// Shown is what a terminal bears, and what was changed for it is told; 80 bytes end between two letters.
+TEST(SegNrrd, ANameThatIsCutOrHoldsControlCharactersIsTold) {
+  const auto read = [](const std::string& name) {
+    const test::TemporaryFolder folder;
+    const std::string keys = "Segment0_Name:=" + name + "\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n";
+    return read_label_map(folder.write(
+        "a.seg.nrrd",
+        start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({1, 0, 0, 1, 0, 0, 0, 0}))));
+  };
+  const std::string letters = std::string(79, 'x');
+  EXPECT_FALSE(test::has_note(read(letters + "y").notes, "Segment0_Name"));
+  const LabelMap cut = read(letters + "\u00e4 and more");
+  EXPECT_EQ(cut.segments.at(0).name, letters);
+  EXPECT_TRUE(test::has_note(cut.notes, "Segment0_Name: the name is longer than 80 bytes, and was cut to \"xxx"));
+  const LabelMap control = read("li\x1b[31mver\u009b");
+  EXPECT_EQ(control.segments.at(0).name, "li [31mver");
+  EXPECT_TRUE(test::has_note(control.notes, "Segment0_Name: blanks stand for control characters: \"li [31mver\""));
 }
 
 TEST(SegNrrd, OldFormHasOneComponentASegment) {
