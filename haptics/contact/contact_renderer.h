@@ -96,7 +96,8 @@ class ContactRenderer {
   /// What a new patch has no more, of what was pressed, is let go slowly: jaws that take a fold press on it still.
   void part_with_lost(const Pose& X_TI, const ContactPatch& patch);
   void add_parting(const Pose& X_TI, ContactResult& result);
-  /// Of tissue, what is felt changes by no more than so much a period, whatever its surface does: news is no blow.
+  /// Of tissue, what is felt changes by no more than so much a period, whatever its surface does: news is no blow. Only
+  /// a force that lags, once it would give more than springs had stored, is let go at once.
   void ease(const Pose& X_TI, ContactResult& result);
   /// Weakens everything by what is left of the force without new patches.
   void fade(ContactResult& result);
