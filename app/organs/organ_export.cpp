@@ -1,7 +1,6 @@
 #include "app/organs/organ_export.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -19,6 +18,7 @@
 #include "haptics/input_error.h"
 #include "haptics/utf8.h"
 #include "tissue/imaging/labels/segment.h"
+#include "tissue/imaging/volumes/volume_frame.h"
 #include "tissue/mesh/files/surface_writer.h"
 #include "tissue/organ/organ.h"
 #include "tissue/organ/staged_file.h"
@@ -34,11 +34,6 @@ namespace fs = std::filesystem;
 std::string made_of(const Organ& organ) {
   return harmless("Trocar organ " + organ.name + (organ.synthetic ? " (synthetic)" : "") + ", licence " +
                   organ.licence + (organ.credit.empty() ? "" : ", " + organ.credit));
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 /// @param name in any case. @param what that named it, for the message.

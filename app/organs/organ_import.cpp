@@ -108,6 +108,28 @@ auto with_file_named(const std::string& file, Work work) {
   }
 }
 
+fs::path manifest_at(const fs::path& stem, bool scene) {
+  return stem.string() + std::string(scene ? kOrganSetSuffix : kOrganSuffix);
+}
+
+/// The files of every organ, but for the manifest at `stem`. @param members of a scene, none for one organ
+std::vector<fs::path> organ_targets(const fs::path& stem, const std::vector<std::string>& members) {
+  if (members.empty()) return {stem.string() + ".ply"};
+  std::vector<fs::path> targets;
+  for (const std::string& member : members)
+    for (const std::string_view suffix : {std::string_view(".ply"), kOrganSuffix})
+      targets.push_back(member_stem(stem, member).string() + std::string(suffix));
+  return targets;
+}
+
+/// Asked before the minutes of meshing; what is written is asked once more, with every file.
+void refuse_foreign_early(const fs::path& stem, const std::vector<OrganNaming>& members) {
+  std::vector<std::string> names;
+  for (const OrganNaming& member : members) names.push_back(member.name);
+  const fs::path manifest = manifest_at(stem, !members.empty());
+  require_not_foreign(manifest, files_named_by(manifest), organ_targets(stem, names));
+}
+
 /// A single organ whose form too few triangles cannot hold is not one: its numbers would be those of another body.
 CompiledOrgan with_its_form(CompiledOrgan&& organ) {
   if (organ.lost) throw InputError(lost_form_words(*organ.lost));
@@ -118,6 +140,7 @@ WrittenOrgans import_label(const OrganImportOptions& options, ImportSource&& sou
                            std::vector<std::string> decisions, const fs::path& stem) {
   OrganManifest manifest = label_manifest(options, source, label);
   const OrganNaming naming = name_labels(options, {label}, source.map, source.stem, source.file, false).front();
+  refuse_foreign_early(stem, {});
   name_organ(naming, manifest);
   decisions.insert(decisions.begin(), naming.decisions.begin(), naming.decisions.end());
   const LabelVolume& layer = source.map.layers[label.segment.layer];
@@ -193,6 +216,7 @@ CompiledMember surface_member(const OrganImportOptions& options, const fs::path&
 WrittenOrgans import_surface_file(const OrganImportOptions& options, const fs::path& path, const fs::path& stem) {
   if (!options.labels.empty() || !options.label.empty() || options.all || options.threshold.window)
     throw InputError("--label, --labels, --all and --threshold go with images, not with " + options.input);
+  refuse_foreign_early(stem, {});
   const std::string by_default =
       options.surface.part.empty() ? path.stem().string() : file_name_of({0, 0, options.surface.part});
   OrganNaming naming = name_surface(options, by_default);
@@ -295,6 +319,7 @@ WrittenOrgans import_scene(const OrganImportOptions& options, ImportSource&& sou
                            const std::vector<ChosenLabel>& labels, const std::vector<std::string>& decisions,
                            const fs::path& stem) {
   const std::vector<OrganNaming> names = name_labels(options, labels, source.map, source.stem, source.file, true);
+  refuse_foreign_early(stem, names);
   std::vector<Segment> segments;
   for (const ChosenLabel& label : labels) segments.push_back(label.segment);
   const std::optional<LabelMap> flat = in_one_layer(source.map, segments);
@@ -364,6 +389,7 @@ WrittenOrgans import_surface_scene(const OrganImportOptions& options, const Orga
   const std::vector<OrganImportOptions> each = asked_of_each(options, files, chosen);
   std::vector<OrganNaming> names;
   for (const OrganImportOptions& one : each) names.push_back(name_surface(one, one.name));
+  refuse_foreign_early(stem, names);
   std::vector<ImportedSurface> sources = read_surfaces(each, chosen, names);
   std::vector<TriangleSurface> surfaces;
   for (ImportedSurface& source : sources) surfaces.push_back(std::move(source.surface));
@@ -454,12 +480,10 @@ void add_page(const OrganImportOptions& options, WrittenOrgans& written) {
 
 /// What is written beside the manifest, without a page that takes the place of an older one of this organ.
 std::vector<fs::path> targets_of(const OrganImportOptions& options, const WrittenOrgans& written) {
-  std::vector<fs::path> targets;
-  if (!written.set) targets.push_back(written.stem.string() + ".ply");
+  std::vector<std::string> members;
   for (const CompiledMember& organ : written.organs)
-    if (written.set)
-      for (const std::string_view suffix : {std::string_view(".ply"), kOrganSuffix})
-        targets.push_back(member_stem(written.stem, organ.manifest.name).string() + std::string(suffix));
+    if (written.set) members.push_back(organ.manifest.name);
+  std::vector<fs::path> targets = organ_targets(written.stem, members);
   for (const SideFile& file : written.files) {
     const fs::path path = written.stem.parent_path() / file.name;
     const bool page = !options.report.empty() && path == fs::absolute(options.report);
@@ -470,7 +494,7 @@ std::vector<fs::path> targets_of(const OrganImportOptions& options, const Writte
 
 /// Writes everything, then takes away what an older organ of this name had and this one has not.
 void write(const OrganImportOptions& options, WrittenOrgans& written) {
-  const fs::path manifest = written.stem.string() + std::string(written.set ? kOrganSetSuffix : kOrganSuffix);
+  const fs::path manifest = manifest_at(written.stem, written.set.has_value());
   const std::set<std::string> before = files_named_by(manifest);
   require_not_foreign(manifest, before, targets_of(options, written));
   if (written.set) {

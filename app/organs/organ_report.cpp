@@ -252,7 +252,9 @@ std::string lost_form_words(const LostForm& form) {
   std::ostringstream out;
   out.setf(std::ios::fixed);
   out.precision(1);
-  out << form.triangles << " triangles are too few for a body " << form.thickness_m * 1e3 << " mm thick: ";
+  out << form.triangles << " triangles ";
+  out << (form.enough > 0 ? "are too few for" : "do not keep the form of") << " a body " << form.thickness_m * 1e3
+      << " mm thick: ";
   if (form.volume_lost)
     out << "its volume would be off by " << std::showpos << form.volume_error_pct << std::noshowpos << " %";
   else if (form.extent_lost)
@@ -260,7 +262,10 @@ std::string lost_form_words(const LostForm& form) {
   else
     out << "its surface would lie " << form.mean_m * 1e3 << " mm off on average, a hundredth of it more than "
         << form.p99_m * 1e3 << " mm";
-  out << ": --triangles " << form.enough;
+  if (form.enough > 0)
+    out << ": --triangles " << form.enough;
+  else
+    out << ": its ends or edges are too sharp: --wrap rounds them, and keeps more of them";
   return out.str();
 }
 

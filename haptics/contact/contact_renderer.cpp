@@ -40,6 +40,8 @@ void ContactRenderer::take(const ToolShape& shape) {
   known_ = 0;
   near_.forget();
   friction_.reset();
+  eased_ = eased_spring_ = {};
+  eased_stored_ = eased_j_ = 0;
 }
 
 ContactResult ContactRenderer::update(const Pose& X_TI, const Twist& V_TI_T, const ContactPatch& newest,

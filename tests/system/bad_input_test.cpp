@@ -112,8 +112,12 @@ TEST_F(BadInput, ASurfaceWithoutAUnitIsRefusedWithAGuess) {
   expect_refusal({"organ", "import", "tetrahedron.ply", "-o", "x"}, 2,
                  "tetrahedron.ply: PLY carries no unit, say --unit mm, cm, m or um");
   expect_refusal({"organ", "import", "tetrahedron.ply", "--unit", "furlong", "-o", "x"}, 2, "furlong");
-  // A tetrahedron is no organ: its sharp edges, remeshed at 6000 triangles, would cut themselves without the guard.
-  const Json organ = json_of({"organ", "import", "tetrahedron.ply", "--unit", "mm", "-o", "x", "--json"}, 0);
+  // A tetrahedron is no organ: remeshed so that it does not cut itself it loses its ends. What is told to do keeps
+  // them.
+  expect_refusal({"organ", "import", "tetrahedron.ply", "--unit", "mm", "--triangles", "1000", "-o", "x", "--json"}, 2,
+                 "78.3 mm long where it should be 100.0: its ends or edges are too sharp: --wrap");
+  const Json organ = json_of(
+      {"organ", "import", "tetrahedron.ply", "--unit", "mm", "--wrap", "--triangles", "1000", "-o", "x", "--json"}, 0);
   EXPECT_EQ(organ["self_intersections"], 0);
   EXPECT_NEAR(organ["volume_ml"].get<double>(), 1000.0 / 6, 1.7);
 }

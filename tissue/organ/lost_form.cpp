@@ -32,11 +32,13 @@ void compare_extents(const TriangleSurface& mesh, const TriangleSurface& source,
   form.extent_lost = most > 1;
 }
 
-/// As many triangles as edges of one and a half thicknesses make, and at least twice those that were too few.
-int enough_triangles(double area_m2, double thickness_m, int too_few) {
+/// As many triangles as edges of one and a half thicknesses make, and for voxels at least twice those that were too
+/// few. A surface of other programs may have ends so sharp that no number keeps them: a tetrahedron's.
+int enough_triangles(double area_m2, double thickness_m, int too_few, bool of_voxels) {
   constexpr double kEdge = 1.5, kAreaOfEdgeOne = 0.433;  // of an equilateral triangle
   constexpr double kMost = 200000;
   const double count = area_m2 / (kAreaOfEdgeOne * std::pow(kEdge * thickness_m, 2));
+  if (!of_voxels && count <= too_few) return 0;
   const double wanted = std::max(count, 2.0 * too_few);
   return static_cast<int>(std::min(100 * std::ceil(wanted / 100), kMost));
 }
@@ -66,7 +68,7 @@ std::optional<LostForm> lost_form(const TriangleSurface& mesh, const TriangleSur
   }
   form.mean_m = back.mean_m, form.p99_m = back.p99_m;
   if (!form.volume_lost && !form.extent_lost && !lies_off) return {};
-  form.enough = enough_triangles(area_m2, form.thickness_m, triangles);
+  form.enough = enough_triangles(area_m2, form.thickness_m, triangles, facts.voxel_m > 0);
   return form;
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "haptics/exchange/material_point.h"
+#include "tissue/mesh/surface/topology.h"
 
 namespace trocar {
 namespace {
@@ -18,36 +19,15 @@ constexpr double kOnSurface = 1e-7;      // m, where the way to the nearest plac
 constexpr double kFaceTells = 0.5;       // cosine between a face and the way to it, from which it tells in from out
 constexpr double kGrownIn = 0.02;        // share of a neighbour's vertices deep in the organ: it is a part of it
 
-/// The surfaces that share no vertex, by their first one.
+/// The surfaces that share no vertex, by their first triangle.
 std::vector<TriangleSurface> separate_pieces(const TriangleSurface& all) {
-  std::vector<std::size_t> root(all.vertices.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& triangle : all.triangles)
-    for (const std::int32_t corner : triangle) {
-      const std::size_t a = find(static_cast<std::size_t>(triangle[0])), b = find(static_cast<std::size_t>(corner));
-      root[std::max(a, b)] = std::min(a, b);
-    }
+  const std::vector<std::int32_t> piece = triangle_components(all);
   std::vector<TriangleSurface> pieces;
-  std::vector<std::size_t> piece_of(root.size(), root.size());
-  std::vector<std::int32_t> number(root.size(), -1);
-  for (const auto& triangle : all.triangles) {
-    std::size_t& piece = piece_of[find(static_cast<std::size_t>(triangle[0]))];
-    if (piece == root.size()) piece = pieces.size(), pieces.emplace_back();
-    TriangleSurface& to = pieces[piece];
-    std::array<std::int32_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(triangle[k]);
-      if (number[v] < 0) {
-        number[v] = static_cast<std::int32_t>(to.vertices.size());
-        to.vertices.push_back(all.vertices[v]);
-      }
-      corners[k] = number[v];
-    }
-    to.triangles.push_back(corners);
+  for (std::int32_t count = piece.empty() ? 0 : 1 + *std::max_element(piece.begin(), piece.end()), n = 0; n < count;
+       ++n) {
+    std::vector<bool> of_this(piece.size());
+    std::transform(piece.begin(), piece.end(), of_this.begin(), [n](std::int32_t of) { return of == n; });
+    pieces.push_back(some_triangles(all, of_this));
   }
   return pieces;
 }

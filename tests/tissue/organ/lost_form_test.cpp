@@ -52,6 +52,17 @@ TEST(LostForm, AnEndCutOff) {
   EXPECT_FALSE(lost(plate(0.003, 0.0585), 0.001));
 }
 
+TEST(LostForm, OnlyANumberThatHelpsIsTold) {
+  const TriangleSurface cut_off = plate(0.003, 0.05);
+  MeshFacts facts;
+  facts.distance_back = distance_from_to(plate(0.003), cut_off);
+  const auto told = [&](int triangles) { return lost_form(cut_off, plate(0.003), facts, triangles).value().enough; };
+  EXPECT_EQ(told(200), 1100);
+  EXPECT_EQ(told(2000), 0) << "a surface of another program, with edges as short as it takes";
+  facts.voxel_m = 0.001;
+  EXPECT_EQ(told(2000), 4000) << "of voxels, which have no sharp ends";
+}
+
 /// Distances to the voxels' stairs alone are none of the triangles' doing.
 TEST(LostForm, WhatSmoothingTookIsNotLost) {
   MeshFacts facts;
