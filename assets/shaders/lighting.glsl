@@ -8,9 +8,46 @@ layout(std140) uniform Scene {
   vec4 axis;           // xyz: viewing direction; w: time in s
   vec4 tip;            // xyz, T: instrument tip; w: shaft radius
   vec4 shaft;          // xyz: from the tip back along the shaft; w: its length
-  vec4 dimple;         // xyz, T: centre; w: depth
-  vec4 dimple_normal;  // xyz: outward; w: spread of the dent
+  vec4 dimple;         // xyz, T: underside of the tip that presses; w: depth
+  vec4 dimple_normal;  // xyz: out of the tissue; w: spread of the dent
 };
+
+#ifdef DIMPLED
+// How far the instrument's underside presses a place aside.
+struct Dent {
+  float deep;   // m, against the contact's normal
+  vec3 slope;   // of `deep` along T
+  float reach;  // squared distance from the underside, in spreads
+};
+
+// By the point of it that is `s` from the tip. Round the underside the dent fades like a Gaussian.
+Dent dent_from(vec3 from, float s, vec3 rise) {
+  vec3 off = from - s * shaft.xyz;
+  float height = dot(off, dimple_normal.xyz);
+  vec3 aside = off - height * dimple_normal.xyz;
+  float spread2 = dimple_normal.w * dimple_normal.w;
+  float above = clamp(height, 0.0, dimple.w), over = min(height, 0.0);
+  float share = exp(-0.5 * dot(aside, aside) / spread2);
+  share *= 1.0 - smoothstep(1.5 * dimple.w + 0.003, 2.0 * dimple.w + 0.006, height);  // another fold, over the tool
+  vec3 slope = height > 0.0 && height < dimple.w ? rise : vec3(0.0);
+  return Dent(share * above, share * (slope - above / spread2 * aside),
+              (dot(aside, aside) + over * over) / spread2);
+}
+
+// The deeper of what the tip and what the shaft does.
+Dent dent(vec3 place) {
+  vec3 from = place - dimple.xyz, along = shaft.xyz - dot(shaft.xyz, dimple_normal.xyz) * dimple_normal.xyz;
+  Dent result = dent_from(from, 0.0, dimple_normal.xyz);
+  float flat2 = dot(along, along);
+  if (flat2 > 0.01) {
+    float s = clamp(dot(from, along) / flat2, 0.0, shaft.w);
+    Dent beside = dent_from(from, s, dimple_normal.xyz - dot(shaft.xyz, dimple_normal.xyz) / flat2 * along);
+    if (beside.deep > result.deep) result.deep = beside.deep, result.slope = beside.slope;
+    result.reach = min(result.reach, beside.reach);
+  }
+  return result;
+}
+#endif
 
 float ggx(float n_h, float alpha) {
   float a2 = alpha * alpha;

@@ -242,14 +242,12 @@ void keep_open(inout Surface s, vec4 grain) {
 #endif
 
 #ifdef DIMPLED
-// Blood is pressed out under the tip and into a rim round it, no wider than a deep dent of firm tissue; the dent's slope
-// is that of a Gaussian.
+// Blood is pressed out under the instrument and into a rim round it, no wider than a deep dent of firm tissue.
 vec3 press(inout Surface s, vec3 n) {
-  vec3 from = v_place - dimple.xyz;
+  Dent pressed = dent(v_place);
   float spread2 = dimple_normal.w * dimple_normal.w;
-  float reach = dot(from, from) / spread2;
   float hard = clamp(dimple.w / 0.0028, 0.0, 1.0);
-  float bled = reach * max(1.0, spread2 / (0.0047 * 0.0047));
+  float bled = pressed.reach * max(1.0, spread2 / (0.0047 * 0.0047));
   float pale = hard * exp(-0.50 * bled);
   float flush = hard * exp(-0.125 * (bled - 5.5) * (bled - 5.5));
   float grey = dot(s.base, vec3(0.4, 0.35, 0.25));
@@ -257,8 +255,8 @@ vec3 press(inout Surface s, vec3 n) {
   s.base *= 1.0 - vec3(0.08, 0.34, 0.34) * flush;
   s.film *= 1.0 - 0.40 * pale;
   s.bump *= 1.0 - 0.45 * pale;  // stretched smooth
-  float w = exp(-0.5 * reach);
-  return normalize(n - dimple.w * w / spread2 * dot(n, dimple_normal.xyz) * from);
+  float out_of = dot(n, dimple_normal.xyz);
+  return normalize((1.0 - dot(pressed.slope, dimple_normal.xyz)) * n + out_of * pressed.slope);
 }
 #endif
 

@@ -27,8 +27,7 @@ invariant gl_Position;
 void main() {
   vec3 p = a_position;
 #ifdef DIMPLED
-  vec3 from = p - dimple.xyz;
-  p -= dimple.w * exp(-dot(from, from) / (2.0 * dimple_normal.w * dimple_normal.w)) * dimple_normal.xyz;
+  p -= dent(p).deep * dimple_normal.xyz;
 #endif
   p += u_breath;
   v_position = p;

@@ -222,15 +222,21 @@ Camera attempt_camera(const SessionView& view) {
 namespace {
 
 /// On tissue that gives way the loop's depth is that of the whole dent; the surface has most of it already. What is
-/// left is how far the tip's sphere reaches into the surface as it is.
-void fit_dimple(double tip_radius_m, SceneView& out) {
-  const Vec3 tip = out.X_TI.p;
-  const auto nearest =
-      std::min_element(out.organ->vertices.begin(), out.organ->vertices.end(),
-                       [&](const Vec3& a, const Vec3& b) { return (a - tip).squaredNorm() < (b - tip).squaredNorm(); });
-  const double above = out.dimple_normal_T.dot(*nearest - tip);
-  out.dimple_depth_m = std::clamp(above + tip_radius_m, 0.0, out.dimple_depth_m);
-  out.dimple_T = tip + above * out.dimple_normal_T;
+/// left is how far tip and shaft reach into the surface as it is.
+double left_of_dimple(const SceneView& view) {
+  constexpr double kUnder = 0.006;  // m to the sides, within which a vertex lies under the instrument
+  const Vec3 normal = view.dimple_normal_T, shaft = -view.X_TI.R.col(2);
+  const Vec3 along = shaft - shaft.dot(normal) * normal;
+  const double flat2 = std::max(along.squaredNorm(), 0.01);
+  double deepest = 0;
+  for (const Vec3& vertex : view.organ->vertices) {
+    const Vec3 from = vertex - *view.dimple_T;
+    const Vec3 off = from - std::clamp(from.dot(along) / flat2, 0.0, view.shaft_length_m) * shaft;
+    const double height = off.dot(normal), aside2 = off.squaredNorm() - height * height;
+    if (height > view.dimple_depth_m + kUnder) continue;  // of another fold, over the tool
+    deepest = std::max(deepest, std::min(height, view.dimple_depth_m) * std::exp(-aside2 / (2 * kUnder * kUnder)));
+  }
+  return deepest;
 }
 
 }  // namespace
@@ -289,10 +295,10 @@ SceneView attempt_scene(const SessionView& view) {
   out.roll_stripe = kind.oriented;
   const bool pulls = view.tissue && view.tissue->held();  // on a fold, which is no dent
   if (stylus.contact && kind.on_organ && !pulls) {
-    out.dimple_T = stylus.contact_point_T;
     out.dimple_normal_T = stylus.contact_normal_T;
     out.dimple_depth_m = stylus.depth_m;
-    if (out.organ->rest) fit_dimple(view.scene.loop.tool.radius_m, out);
+    out.dimple_T = stylus.X_TI.p - view.scene.loop.tool.radius_m * stylus.contact_normal_T;
+    if (out.organ->rest) out.dimple_depth_m = left_of_dimple(out);
   }
   if (view.tissue) add_marks(*view.tissue, out);
   if (view.tissue) add_clips_and_drops(*view.tissue, out.objects);

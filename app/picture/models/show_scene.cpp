@@ -113,9 +113,9 @@ void add_char(SceneView& view, const Sight& sight) {
 /// The right instrument presses on the gallbladder's body.
 void press(SceneView& view, const Sight& sight) {
   const Vec3 at = sight.hit(0.22, 0.06), normal = sight.normal(at);
-  view.dimple_T = at;
   view.dimple_normal_T = normal;
   view.dimple_depth_m = 0.0030;
+  view.dimple_T = at - view.dimple_depth_m * normal;
   view.X_TI = instrument_at(at - view.dimple_depth_m * normal, Vec3(0.75, -0.62, 0.02), 0.3);
   view.jaw_opening_m = 0;
   blot(view, sight, Kind::kWhitening, {{0.02, -0.08, 0.0075, 1}, {-0.27, 0.22, 0.0110, 0.9}});

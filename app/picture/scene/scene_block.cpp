@@ -28,7 +28,7 @@ SceneBlock make_scene_block(const SceneView& view, const ScopeOptics& optics) {
   put(block.axis, optics.forward(), view.hud.elapsed_s);
   put(block.tip, view.X_TI.p, view.shaft_radius_m);
   put(block.shaft, -view.X_TI.R.col(2), view.shaft_length_m);
-  const double depth = has_dimple(view) ? std::min(view.dimple_depth_m, 0.02) : 0.0;
+  const double depth = has_dimple(view) ? std::min(view.dimple_depth_m, 0.05) : 0.0;
   put(block.dimple, view.dimple_T.value_or(Vec3::Zero()), depth);
   // A deeper dent is a wider one, so that its slope stays below that of tissue about to tear.
   put(block.dimple_normal, view.dimple_normal_T, std::max(0.0042, 0.9 * depth));

@@ -140,9 +140,9 @@ struct SceneView {
   double shaft_radius_m = 0.0025, shaft_length_m = 0.30;
   double jaw_opening_m = 0;      ///< between the jaws' tips
   bool roll_stripe = false;      ///< paint a stripe along the upper jaw's side (+y of I)
-  std::optional<Vec3> dimple_T;  ///< surface point under the tip while touching
+  std::optional<Vec3> dimple_T;  ///< while touching: the side of the tip that presses; the shaft goes on from there
   Vec3 dimple_normal_T = Vec3::UnitZ();
-  double dimple_depth_m = 0;  ///< drawn as a local dent with whitening
+  double dimple_depth_m = 0;  ///< drawn as a local dent under tip and shaft, with whitening
   std::vector<InstrumentView> more_instruments = {};
   std::vector<TissueMark> marks = {};  ///< blood, char, whitening, wet; the first kMaxTissueMarks are drawn
   double smoke_per_m = 0;              ///< extinction of the smoke

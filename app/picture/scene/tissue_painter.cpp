@@ -279,7 +279,7 @@ void TissuePainter::draw_part(TissuePart& part, const ProgramBinder& bind, const
                               const ScopeOptics& optics) {
   if (!in_field(part.box(), view.camera, optics)) return;
   std::vector<std::string> defines;
-  const bool is_organ = organ_ && &part == &*organ_;
+  const bool is_organ = (organ_ && &part == &*organ_) || (second_ && &part == &*second_);
   if (is_organ && has_dimple(view)) defines.emplace_back("DIMPLED");
   if (part.moves()) defines.emplace_back("DEFORMED");
   defines.push_back(part.look);

@@ -168,12 +168,37 @@ TEST_F(Deforming, TheTipDentsTheSurfaceWhereItIsNow) {
   move(pressed);
   const Image plain = draw();
   const auto [at, normal] = top_of(*view_.organ, 0.01, 0.012);
-  view_.dimple_T = at;
   view_.dimple_normal_T = normal;
   view_.dimple_depth_m = 0.0028;
+  view_.dimple_T = at - view_.dimple_depth_m * normal;
   const Image dented = draw();
   EXPECT_LT((middle_of_change(plain, dented) - pixel(at)).norm(), 12);
   EXPECT_GT(mean_at(dented, pixel(at), 2)[1], 1.2 * mean_at(plain, pixel(at), 2)[1]) << "pressed pale";
+}
+
+/// Pressed in with its whole length the instrument lies on the tissue that it dents, not in it.
+TEST_F(Deforming, TheShaftDentsTheSurfaceToo) {
+  move(pressed);
+  const auto [at, normal] = top_of(*view_.organ, -0.01, 0.012);
+  const Vec3 shaft = Vec3(1, 0, 0.05).normalized(), tip = at - 0.004 * normal;
+  view_.X_TI.p = tip;
+  view_.X_TI.R.col(2) = -shaft;
+  view_.X_TI.R.col(0) = normal.cross(view_.X_TI.R.col(2)).normalized();
+  view_.X_TI.R.col(1) = view_.X_TI.R.col(2).cross(view_.X_TI.R.col(0));
+  const auto hidden = [&](bool dented) {
+    view_.dimple_T = dented ? std::optional<Vec3>(tip - view_.shaft_radius_m * normal) : std::nullopt;
+    view_.dimple_normal_T = normal;
+    view_.dimple_depth_m = 0.012;
+    const Image image = draw();
+    int red = 0;  // of places along the shaft that show tissue
+    for (int mm = 2; mm <= 30; ++mm) {
+      const Pixel seen = mean_at(image, pixel(tip + 0.001 * mm * shaft), 1);
+      red += seen[0] > 1.6 * seen[2] ? 1 : 0;
+    }
+    return red;
+  };
+  EXPECT_GT(hidden(false), 8);
+  EXPECT_EQ(hidden(true), 0);
 }
 
 /// The organ with a cut of 24 mm, 7 mm deep, that runs away from the scope; its walls known as such or not.

@@ -180,16 +180,19 @@ TEST_F(PictureTest, PressingWhitensTheTissueUnderTheTip) {
   const TargetMark spot = view.targets[2];
   view.targets.clear();
   const Image rest = renderer.render(view, kWidth, kHeight);
-  view.dimple_T = spot.centre_T;
-  view.dimple_normal_T = spot.normal_T;
-  view.dimple_depth_m = 0.0015;
+  const auto press = [&](double depth_m) {
+    view.dimple_normal_T = spot.normal_T;
+    view.dimple_depth_m = depth_m;
+    view.dimple_T = spot.centre_T - depth_m * spot.normal_T;
+  };
+  press(0.0015);
   const Image pressed = renderer.render(view, kWidth, kHeight);
   const ScopeOptics optics(view.camera, hud_scene_window(view.hud, kWidth, kHeight, 1));
   const auto at = optics.project(spot.centre_T - 0.0015 * spot.normal_T);
   const Pixel a = mean_at(rest, *at, 3), b = mean_at(pressed, *at, 3);
   EXPECT_GT(b[1], a[1] + 12);                 // blood pressed out: green and blue rise
   EXPECT_GT(b[1] / b[0], 1.2 * a[1] / a[0]);  // paler, not only brighter
-  view.dimple_depth_m = 0.003;
+  press(0.003);
   const Image deeper = renderer.render(view, kWidth, kHeight);
   EXPECT_GT(changed(rest, deeper, 10), changed(rest, pressed, 10));
 }
