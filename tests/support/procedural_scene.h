@@ -132,10 +132,10 @@ inline SceneView procedural_scene(const std::string& material = "liver") {
     view.targets.push_back({point, normal, 0.004, states[i]});
   }
   const TargetMark& lit = view.targets[2];
-  view.dimple_T = lit.centre_T;
   view.dimple_normal_T = lit.normal_T;
   view.dimple_depth_m = 0.0022;
-  view.X_TI = instrument_pose(lit.centre_T - lit.normal_T * view.dimple_depth_m, Vec3(0.62, -0.28, 0.75));
+  view.dimple_T = lit.centre_T - lit.normal_T * view.dimple_depth_m;
+  view.X_TI = instrument_pose(*view.dimple_T, Vec3(0.62, -0.28, 0.75));
   view.jaw_opening_m = 0.002;
   view.camera.eye_T = Vec3(-0.012, -0.085, 0.072);
   view.camera.look_at_T = Vec3(0.0, 0.004, -0.006);
