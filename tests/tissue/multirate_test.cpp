@@ -92,6 +92,19 @@ TEST(MultiRate, AllGripsTissuesRatesAndDelays) {
   RecordProperty("step_at_1_n", std::to_string(worst.step_n));
 }
 
+/// Tissue stiffer than the loop renders: it is felt as stiff as that, and does not swing.
+TEST(MultiRate, NoTissueIsTooStiff) {
+  for (const double young : {150000.0, 300000.0})
+    for (const bool light : {false, true}) {
+      const Felt felt = press(scene(young, 10, 5), light, light ? 0.012 : 0.010);
+      const std::string which = std::to_string(int(young)) + " Pa, " + (light ? "light" : "firm") + " grip";
+      EXPECT_LT(felt.out_j, 5e-5) << which;
+      EXPECT_NEAR(felt.hold_n, felt.solid_n, 0.03 * felt.solid_n) << which;
+      EXPECT_LT(felt.ripple_n, 0.05) << which;
+      EXPECT_LT(felt.step_n, 0.03 * std::max(1.0, felt.most_n)) << which;
+    }
+}
+
 /// The tool straight down to `deep_m` in 0.6 s and held there.
 double depth_at(double t, double deep_m) { return std::min(1.0, t / 0.6) * deep_m; }
 

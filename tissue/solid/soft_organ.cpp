@@ -366,7 +366,8 @@ double SoftOrgan::half_space_depth(double modulus_pa, double force_n) const {
 
 double SoftOrgan::sub_cell_compliance(double modulus_pa, double force_n) const {
   const double half_space = half_space_compliance(modulus_pa, force_n);
-  return std::max(kLeastSubCell * half_space, half_space - sub_cell_);
+  return std::max(
+      {kLeastSubCell * half_space, half_space - sub_cell_, 1 / options_.most_stiffness_n_per_m - sub_cell_});
 }
 
 double SoftOrgan::elastic_part(double force_n) const {

@@ -155,7 +155,8 @@ class SoftOrgan {
   /// Compliance of a half-space under the tool with this force, tangent, and how deep the tool is in it.
   double half_space_compliance(double modulus_pa, double force_n) const;
   double half_space_depth(double modulus_pa, double force_n) const;
-  /// Of that what the lattice does not have, m/N. @param force_n elastic
+  /// Of that what the lattice does not have, m/N; both together are no stiffer than the loop, which would lag behind a
+  /// stiffer law by a step and swing (on 300 kPa by 1.2 N, 13 times a second). @param force_n elastic
   double sub_cell_compliance(double modulus_pa, double force_n) const;
   /// What of a contact's force its branches do not hold, N.
   double elastic_part(double force_n) const;
