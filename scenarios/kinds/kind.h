@@ -40,6 +40,7 @@ struct BoardPlace {
   const TriangleSurface& organ_T;         ///< without triangles where there is no organ
   const ShaftRoom* behind_tip = nullptr;  ///< room for the shaft; nullptr: only the tip is asked for
   Mat3 R_TI_rest = Mat3::Identity();      ///< instrument while the device rests
+  std::span<const Vec3> strands_T = {};   ///< places of what other stages stretch over the organ
 };
 
 struct KindDescription {

@@ -9,6 +9,7 @@ namespace {
 constexpr double kSurroundings = 0.006;  // m round a target in which the surface must stay near its tangent plane
 constexpr double kUnevenness = 0.003;    // m, "near"
 constexpr double kStep = 0.004;          // m, raster of the area
+constexpr double kOpenJaws = 0.014;      // m to the sides: half of what they open, and as much as they lean
 
 }  // namespace
 
@@ -25,7 +26,9 @@ bool TargetGround::is_even(const SurfacePoint& point) const {
 }
 
 bool TargetGround::carries(const SurfacePoint& point) const {
-  return is_even(point) && (room == nullptr || room->free(point.position, point.normal));
+  const auto near = [&](const Vec3& strand) { return (strand - point.position).head<2>().norm() < kOpenJaws; };
+  return is_even(point) && std::none_of(strands_T.begin(), strands_T.end(), near) &&
+         (room == nullptr || room->free(point.position, point.normal));
 }
 
 double closest_spacing(const TargetLayout& layout) { return 2 * (layout.radius_m + layout.wrong_place_m); }

@@ -3,6 +3,8 @@
 // Frame T, m. Thread: one.
 #pragma once
 
+#include <span>
+
 #include "scenarios/exercise.h"
 #include "scenarios/layout/height_field.h"
 #include "scenarios/layout/shaft_room.h"
@@ -11,11 +13,12 @@ namespace trocar {
 
 struct TargetGround {
   const HeightField& field;
-  const TargetLayout& layout;       ///< slope and relief
-  double centre_z = 0;              ///< height of the region's centre
-  const ShaftRoom* room = nullptr;  ///< none: only the tip is asked for
+  const TargetLayout& layout;            ///< slope and relief
+  double centre_z = 0;                   ///< height of the region's centre
+  const ShaftRoom* room = nullptr;       ///< none: only the tip is asked for
+  std::span<const Vec3> strands_T = {};  ///< places of strands and ducts that open jaws are not to have between them
 
-  /// Flat enough, the surface goes on all round it, and the instrument has room behind its tip.
+  /// Flat enough, the surface goes on all round it, the instrument has room behind its tip, and no strand is near.
   bool carries(const SurfacePoint& point) const;
   /// The same whatever the instrument meets.
   bool is_even(const SurfacePoint& point) const;

@@ -84,8 +84,10 @@ void read_operation_level(LevelKeys& keys, const Exercise& exercise, ExerciseLev
 Board lay_out_stage(const ExerciseStage& stage, const ExerciseLevel& level, int board, const BoardPlace& place) {
   TriangleSurface organ = place.organ_T;
   for (Vec3& vertex : organ.vertices) vertex -= stage.at_m;
+  std::vector<Vec3> strands(place.strands_T.begin(), place.strands_T.end());
+  for (Vec3& point : strands) point -= stage.at_m;
   const KindDescription& kind = kind_of(*stage.exercise);
-  Board own = kind.lay_out(*stage.exercise, level, board, {organ, nullptr, place.R_TI_rest});
+  Board own = kind.lay_out(*stage.exercise, level, board, {organ, nullptr, place.R_TI_rest, strands});
   own.centre_T += stage.at_m;
   own.start_T += stage.at_m;
   for (Target& target : own.targets) {
@@ -101,9 +103,20 @@ Board lay_out_operation(const Exercise& exercise, const ExerciseLevel& level, in
   const auto centre = HeightField(place.organ_T).top(0, 0);
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
   Board out;
-  for (std::size_t i = 0; i < exercise.stages.size(); ++i) {
-    out.stages.push_back(lay_out_stage(exercise.stages[i], level.stages[i], board, place));
-    const Board& own = out.stages.back();
+  out.stages.resize(exercise.stages.size());
+  // Jaws that have a strand between them hold no organ: what stands on it is laid out before what is taken of it.
+  std::vector<Vec3> strands;
+  for (const bool stands : {true, false})
+    for (std::size_t i = 0; i < exercise.stages.size(); ++i) {
+      if (exercise.stages[i].exercise->ducts.empty() == stands) continue;
+      BoardPlace stage_place = place;
+      stage_place.strands_T = strands;
+      out.stages[i] = lay_out_stage(exercise.stages[i], level.stages[i], board, stage_place);
+      if (stands)
+        for (const std::vector<Vec3>& path : out.stages[i].ducts_T)
+          strands.insert(strands.end(), path.begin(), path.end());
+    }
+  for (const Board& own : out.stages) {
     out.targets.insert(out.targets.end(), own.targets.begin(), own.targets.end());
     out.ducts_T.insert(out.ducts_T.end(), own.ducts_T.begin(), own.ducts_T.end());
   }

@@ -47,7 +47,7 @@ void read_retract_level(LevelKeys& keys, const Exercise& exercise, ExerciseLevel
 }
 
 Board lay_out_retract(const Exercise& exercise, const ExerciseLevel& level, int board, const BoardPlace& place) {
-  return lay_out_discs(place.organ_T, exercise, level, board, place.behind_tip);
+  return lay_out_discs(place.organ_T, exercise, level, board, place.behind_tip, place.strands_T);
 }
 
 std::vector<std::unique_ptr<ExerciseTask>> retract_tasks(const Exercise& exercise, const ExerciseLevel& level,

@@ -167,12 +167,12 @@ void deal_bands(const std::vector<WantedForce>& bands, BoardRandom& random, std:
 }  // namespace
 
 Board lay_out_discs(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
-                    const ShaftRoom* room) {
+                    const ShaftRoom* room, std::span<const Vec3> strands_T) {
   const TargetLayout& layout = exercise.layout;
   const HeightField field(organ_T);
   const auto centre = field.top(0, 0);
   if (!centre) throw InputError("the organ does not lie under the middle of the board region: place it first");
-  const TargetGround ground{field, layout, centre->position.z(), room};
+  const TargetGround ground{field, layout, centre->position.z(), room, strands_T};
   BoardRandom random(board);
   TargetLayout tried = layout;
   std::vector<Target> best = place_targets(ground, tried, random);

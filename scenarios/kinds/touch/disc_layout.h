@@ -4,6 +4,8 @@
 // loading only.
 #pragma once
 
+#include <span>
+
 #include "haptics/quantities.h"
 #include "scenarios/director/director.h"
 #include "scenarios/exercise.h"
@@ -19,9 +21,9 @@ namespace trocar {
 /// On an organ too small for the exercise's spacing the targets move together, down to where their wrong-place rims
 /// touch; the board says how far apart they are. An organ that has room is laid out as ever. Several bands of a level
 /// are dealt out evenly, in an order drawn by the board.
-/// @param room behind the instrument's tip; none: only the tip is asked for.
+/// @param room behind the instrument's tip; none: only the tip is asked for. @param strands_T that jaws are not to meet
 /// @throws InputError when they do not fit, saying how many do, and whether the shaft is why.
 Board lay_out_discs(const TriangleSurface& organ_T, const Exercise& exercise, const ExerciseLevel& level, int board,
-                    const ShaftRoom* room = nullptr);
+                    const ShaftRoom* room = nullptr, std::span<const Vec3> strands_T = {});
 
 }  // namespace trocar

@@ -54,6 +54,22 @@ TEST(Operation, LaysEachStageOutAtItsPlace) {
   EXPECT_EQ(stage_with(ranges, -1), nullptr);
 }
 
+/// They would come between the open jaws, and what is taken beside them is too thin a fold to be lifted.
+TEST(Operation, FoldsToBeTakenLieClearOfTheStrandsOfLaterStages) {
+  const Exercise exercise = load_exercise(kFile);
+  for (const ExerciseLevel& level : exercise.levels)
+    for (int number = 0; number < 20; ++number) {
+      const Board board = laid_out(exercise, level, number);
+      double nearest = 1;
+      for (int fold = 0; fold < kRetracts; ++fold)
+        for (const std::vector<Vec3>& path : board.ducts_T)
+          for (const Vec3& point : path)
+            nearest =
+                std::min(nearest, (point - board.targets[static_cast<std::size_t>(fold)].centre_T).head<2>().norm());
+      EXPECT_GT(nearest, 0.0139) << level.name << ", board " << number;
+    }
+}
+
 TEST(Operation, AStageIsToldOfNothingThatIsAnothers) {
   const Exercise exercise = load_exercise(kFile);
   const std::vector<StageRange> ranges = stage_ranges(exercise, laid_out(exercise, exercise.levels.front()));
