@@ -265,7 +265,7 @@ std::string lost_form_words(const LostForm& form) {
   if (form.enough > 0)
     out << ": --triangles " << form.enough;
   else
-    out << ": its ends or edges are too sharp: --wrap rounds them, and keeps more of them";
+    out << ": where ends and edges are sharp, --wrap keeps more of them than a greater --triangles";
   return out.str();
 }
 

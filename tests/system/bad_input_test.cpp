@@ -115,7 +115,7 @@ TEST_F(BadInput, ASurfaceWithoutAUnitIsRefusedWithAGuess) {
   // A tetrahedron is no organ: remeshed so that it does not cut itself it loses its ends. What is told to do keeps
   // them.
   expect_refusal({"organ", "import", "tetrahedron.ply", "--unit", "mm", "--triangles", "1000", "-o", "x", "--json"}, 2,
-                 "78.3 mm long where it should be 100.0: its ends or edges are too sharp: --wrap");
+                 "78.3 mm long where it should be 100.0: where ends and edges are sharp, --wrap keeps more");
   const Json organ = json_of(
       {"organ", "import", "tetrahedron.ply", "--unit", "mm", "--wrap", "--triangles", "1000", "-o", "x", "--json"}, 0);
   EXPECT_EQ(organ["self_intersections"], 0);

@@ -14,8 +14,7 @@ namespace trocar {
 struct LostForm {
   double thickness_m = 0;  ///< of the source
   int triangles = 0;       ///< that were asked for
-  int enough =
-      0;  ///< edges of one and a half thicknesses; 0: a surface has these, and it is not they that were lacking
+  int enough = 0;          ///< edges of one and a half thicknesses; 0: a surface has those already, and it did not help
   double volume_error_pct = 0;        ///< against what was kept
   double extent_m = 0, wanted_m = 0;  ///< along the axis on which mesh and source differ most
   double mean_m = 0, p99_m = 0;       ///< from the source to the mesh

@@ -23,8 +23,8 @@ constexpr double kGrownIn = 0.02;        // share of a neighbour's vertices deep
 std::vector<TriangleSurface> separate_pieces(const TriangleSurface& all) {
   const std::vector<std::int32_t> piece = triangle_components(all);
   std::vector<TriangleSurface> pieces;
-  for (std::int32_t count = piece.empty() ? 0 : 1 + *std::max_element(piece.begin(), piece.end()), n = 0; n < count;
-       ++n) {
+  const std::int32_t last = piece.empty() ? -1 : *std::max_element(piece.begin(), piece.end());
+  for (std::int32_t n = 0; n <= last; ++n) {
     std::vector<bool> of_this(piece.size());
     std::transform(piece.begin(), piece.end(), of_this.begin(), [n](std::int32_t of) { return of == n; });
     pieces.push_back(some_triangles(all, of_this));
