@@ -154,19 +154,23 @@ std::string headline(const OrganManifest& manifest) {
   return manifest.name + (manifest.synthetic ? " (synthetic)" : "") + ", material " + manifest.material;
 }
 
+/// How far the surface lies off on average, where that is more than a voxel, m.
+std::optional<double> off_its_place_m(const MeshFacts& mesh) {
+  const double off_m = std::max(mesh.distance.mean_m, mesh.distance_back.mean_m);
+  return mesh.voxel_m > 0 && off_m > mesh.voxel_m ? std::optional(off_m) : std::nullopt;
+}
+
 /// A mesh of few triangles keeps its volume only where it can keep its form.
 void text_of_lost_form(std::ostream& out, const MeshFacts& mesh) {
-  constexpr double kVolume = 1;    // per cent of what was kept of the label
-  constexpr double kDistance = 1;  // voxels, on average
+  constexpr double kVolume = 1;  // per cent of what was kept of the label
   const bool volume = std::abs(mesh.kept_error_pct) > kVolume;
-  const double off_m = std::max(mesh.distance.mean_m, mesh.distance_back.mean_m);
-  const bool place = mesh.voxel_m > 0 && off_m > kDistance * mesh.voxel_m;
+  const std::optional<double> place = off_its_place_m(mesh);
   if (!volume && !place) return;
   out << "  NOT AS LABELLED  ";
   if (volume) out << "its volume is off by " << std::showpos << mesh.kept_error_pct << std::noshowpos << " %";
   if (volume && place) out << ", and ";
   if (place)
-    out << "its surface lies " << off_m * 1e3 << " mm off on average, voxels are " << mesh.voxel_m * 1e3 << " mm";
+    out << "its surface lies " << *place * 1e3 << " mm off on average, voxels are " << mesh.voxel_m * 1e3 << " mm";
   const bool wrapped = std::any_of(mesh.repairs.begin(), mesh.repairs.end(),
                                    [](const std::string& repair) { return repair.find("wrap") != std::string::npos; });
   out << ": " << mesh.topology.triangles << " triangles are too few for this form (--triangles)"
@@ -310,8 +314,8 @@ std::string not_as_labelled(const std::vector<CompiledMember>& organs) {
     return mesh.voxel_m > 0 && off > kHalfDiagonal * mesh.voxel_m ? Fault({off, off * 1e3}) : std::nullopt;
   });
   const std::string forms = worst_organs(organs, " %.1f mm", [](const MeshFacts& mesh) -> Fault {
-    const double off = std::max(mesh.distance.mean_m, mesh.distance_back.mean_m);
-    return mesh.voxel_m > 0 && off > mesh.voxel_m ? Fault({off, off * 1e3}) : std::nullopt;
+    const std::optional<double> off = off_its_place_m(mesh);
+    return off ? Fault({*off, *off * 1e3}) : std::nullopt;
   });
   const std::string angles = worst_organs(organs, " %.1f deg", [](const MeshFacts& mesh) -> Fault {
     const double least = mesh.quality.min_angle_deg;

@@ -50,14 +50,18 @@ TEST(SegNrrd, OverlappingSegmentsLieInLayers) {
   EXPECT_CONTAINS(test::image_refusal(path), "a segmentation, not an image");
 }
 
+/// 2 x 2 x 2 voxels of these values, with these keys in the header.
+LabelMap one_layer(const std::string& keys, const std::vector<double>& values) {
+  const test::TemporaryFolder folder;
+  return read_label_map(
+      folder.write("a.seg.nrrd", start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>(values))));
+}
+
 TEST(SegNrrd, OneLayerKeepsItsNames) {
-  test::TemporaryFolder folder;
   const std::string keys =
       "Segment0_Name:=gall\tbladder\nSegment0_LabelValue:=7\nSegment0_Layer:=0\nSegment1_Name:=never\nSegment1_"
       "LabelValue:=8\n";
-  const LabelMap map = read_label_map(folder.write(
-      "a.seg.nrrd",
-      start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({7, 0, 0, 7, 3, 0, 0, 0}))));
+  const LabelMap map = one_layer(keys, {7, 0, 0, 7, 3, 0, 0, 0});
   ASSERT_EQ(map.segments.size(), 2U);
   EXPECT_EQ(map.segments[0].number, 3);
   EXPECT_EQ(map.segments[0].name, "");  // the file does not name it
@@ -67,13 +71,10 @@ TEST(SegNrrd, OneLayerKeepsItsNames) {
 
 /// "Leber" with an a umlaut of Latin-1: guessed at it would be another name.
 TEST(SegNrrd, ANameThatIsNotUtf8IsNone) {
-  test::TemporaryFolder folder;
   const std::string keys =
       "Segment0_Name:=Le\xe4"
       "ber\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n";
-  const LabelMap map = read_label_map(folder.write(
-      "a.seg.nrrd",
-      start("2 2 2", kFrame3, keys) + gzip_compressed(test::packed<std::uint8_t>({1, 0, 0, 1, 0, 0, 0, 0}))));
+  const LabelMap map = one_layer(keys, {1, 0, 0, 1, 0, 0, 0, 0});
   ASSERT_EQ(map.segments.size(), 1U);
   EXPECT_EQ(map.segments[0].name, "");
   EXPECT_TRUE(test::has_note(map.notes, "Segment0_Name: the name is not UTF-8"));
